@@ -135,8 +135,8 @@ TEST_CASE("patches: what there is, and what is left out") {
     odd.add(Triangle{{0, 0, 2}, {0, 1, 2}, {1, 0, 2}}, white);
     const Patches two = make_patches(World(odd), {.size = 10});
     CHECK(two.patches.size() == 2); // one without an area has no patch
-    CHECK(two.left_out == std::vector<std::string>{
-                              "1 light is no surface with patches and lights nothing"});
+    CHECK(two.left_out ==
+          std::vector<std::string>{"1 light has no patches and lights no surface"});
 }
 
 TEST_CASE("patches: a textured lamp is said to light nothing, and is drawn as it is") {
@@ -149,9 +149,8 @@ TEST_CASE("patches: a textured lamp is said to light nothing, and is drawn as it
     const World world(std::move(scene));
     const auto made = make_radiosity(world, {.patches{.size = 1}});
     CHECK(made->patches.left_out ==
-          std::vector<std::string>{
-              "1 object is not Lambertian and reflects no light",
-              "1 light is no surface with patches and lights nothing"});
+          std::vector<std::string>{"1 object is not Lambertian and reflects no light",
+                                   "1 light has no patches and lights no surface"});
     const LightMapView view(world, made->map);
     RandomStream stream{};
     Counts counts;

@@ -16,32 +16,31 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};          ///< On the side of the normal, W/(m^2 sr).
-    Vec3T<T> normal{T(0)};           ///< Unit; 0 unless the shape is flat.
+    RgbT<T> radiance{T(0)};          ///< Emitted radiance, W/(m^2 sr).
+    Vec3T<T> normal{T(0)};           ///< Unit normal of a flat shape, otherwise 0.
     T area = T(0);                   ///< In squared scene units.
-    bool inside_out = false;         ///< Whether it emits on the other side.
-    std::vector<double> area_sums{}; ///< As of area_sums(), if the shape has it.
+    bool inside_out = false;         ///< True: it emits against the normal.
+    std::vector<double> area_sums{}; ///< area_sums() of a shape that has this function.
 };
 
-/// A lamp: a shape that emits uniform radiance on the side of its normal. A scene makes
-/// it from an object with a radiance.
+/// A lamp: a shape that emits uniform radiance on the side of its normal or, inside
+/// out, on the other side. A scene makes a lamp from an object with a radiance.
 template <Shape S>
 struct AreaLightT {
-    using Scalar = ScalarOf<S>; ///< The precision.
-    const S& shape;             ///< At the time of the ray.
+    using Scalar = ScalarOf<S>; ///< The precision of its numbers.
+    const S& shape;             ///< The shape, which may move.
     const LampT<Scalar>& lamp;  ///< Precomputed data.
 };
 
 namespace detail {
 
-/// Whether a type of light is a lamp: a surface that emits the same radiance into all
-/// directions of the side of its normal.
+/// Whether a type of light is a lamp: a surface that emits diffusely from each point.
 template <typename L>
 inline constexpr bool is_lamp = false;
 template <typename S>
 inline constexpr bool is_lamp<AreaLightT<S>> = true;
 
-/// Whether a lamp keeps the areas of the parts of its shape.
+/// Whether a shape has area_sums(). A lamp then stores the result of this function.
 template <typename S>
 inline constexpr bool has_area_sums = requires(const S& shape) {
     area_sums(shape);
@@ -65,7 +64,7 @@ template <Shape S, std::floating_point T>
 /// \name A lamp
 /// \{
 
-/// The flux of a diffuse emitter: pi L A, in W.
+/// The emitted flux in W: pi times radiance times area.
 template <typename S>
 [[nodiscard]] auto power(const AreaLightT<S>& light) noexcept {
     using T = ScalarOf<S>;
@@ -77,10 +76,10 @@ template <typename S>
 /// \param from   The lit point.
 /// \param u      Point of the unit square.
 /// \param time   Time of the path, in [0, 1].
-/// \return The sample; nothing if `from` lies behind the lamp, which emits on one side.
+/// \return The sample; nothing if `from` is not on the emitting side of the lamp.
 /// \report{Section 3.2.3}
-/// \erratum{The program behind the report leaves out the light's area and the inverse
-///          square: a wall ten times as far was lit as brightly.}
+/// \erratum{The report's program leaves out the area of the lamp and the inverse square
+/// of the distance. It lights a wall ten times as far away as brightly as a near wall.}
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>> sample_light(const AreaLightT<S>& light,
                                                           const Vec3T<T>& from,
@@ -106,15 +105,15 @@ template <typename S, std::floating_point T>
     const T pdf = sample->pdf;
     sample->wi = glm::normalize(point.position - from);
     sample->weight = light.lamp.radiance / pdf;
-    // An observer on the lamp gives NaN, which means no light.
+    // A point on the lamp itself gives NaN, and no light.
     if (!(glm::dot(sample->wi, point.normal) < T(0) && pdf > T(0) &&
           std::isfinite(pdf)))
         sample.reset();
     return sample;
 }
 
-/// Samples the origin of a photon, uniformly over the area; its normal points to the
-/// emitting side.
+/// Samples the origin of a photon, uniformly over the area.
+/// \return The point. Its normal points to the emitting side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
                                               const Vec2T<T>& u, T time) {
@@ -129,8 +128,8 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// Samples the unit direction of a photon from an emission_point(), with the density
-/// cos / pi.
+/// Samples the unit direction of a photon from an emission_point(). The density is the
+/// cosine to the normal over pi, per steradian.
 template <typename L, std::floating_point T>
 requires detail::is_lamp<L>
 [[nodiscard]] Vec3T<T> sample_emission(const L&, const SurfacePointT<T>& point,
@@ -138,7 +137,8 @@ requires detail::is_lamp<L>
     return to_world(frame_around(point.normal), sample_cosine_hemisphere(u));
 }
 
-/// The density of sample_emission(): cos / pi per steradian; 0 behind the lamp.
+/// The density of sample_emission(), per steradian: the cosine to the normal over pi; 0
+/// behind the lamp.
 template <typename L, std::floating_point T>
 requires detail::is_lamp<L>
 [[nodiscard]] T pdf_emission(const L&, const SurfacePointT<T>& point,
@@ -155,8 +155,8 @@ requires detail::is_lamp<L>
     return {point.normal, T(1)};
 }
 
-/// The form factor from a point with a unit normal to the lamp, in [0, 1]; nothing if
-/// there is no closed form.
+/// The form factor from a point with a unit normal to the lamp.
+/// \return In [0, 1]; nothing if the shape has no closed form.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
                                            const Vec3T<T>& from, const Vec3T<T>& normal,
@@ -169,7 +169,8 @@ template <typename S, std::floating_point T>
         return std::nullopt;
 }
 
-/// The u for which sample_light() returns the lamp's centre.
+/// The point u of the unit square for which sample_light() returns the centre of the
+/// lamp.
 template <typename S>
 [[nodiscard]] auto center_sample(const AreaLightT<S>& light) noexcept {
     return center_sample(light.shape);

@@ -21,26 +21,27 @@ namespace ljus {
 /// The picture is a map of the sphere of directions. Its rows are equal steps of the
 /// angle from straight up (+y) to straight down, its columns equal steps of azimuth:
 ///
-/// | in the picture     | direction |
-/// |--------------------|-----------|
-/// | the upper edge     | +y        |
-/// | the middle         | -z        |
-/// | a quarter to right | +x        |
-/// | both side edges    | +z        |
+/// | in the picture                             | direction |
+/// |--------------------------------------------|-----------|
+/// | the upper edge                             | +y        |
+/// | the middle                                 | -z        |
+/// | a quarter of the width right of the middle | +x        |
+/// | the left and the right edge                | +z        |
 ///
-/// A pixel is one radiance for all directions in its field. A picture of one pixel is a
-/// constant sky.
+/// The radiance is the same for all directions within a pixel. A picture of one pixel
+/// is a constant sky.
 /// \{
 
-/// Light from infinitely far away in all directions: from a sky, or from a photograph
-/// of a place. Its flux is what falls into the sphere around all shapes of its scene.
+/// Light from infinitely far away, from all directions. It is given by a picture of a
+/// sky or of a place. Its flux is the light that falls into the sphere around all
+/// shapes of the scene.
 ///
 ///     scene.add(EnvironmentLight{.picture = load_hdr("garden.hdr"), .strength = 2});
 ///     scene.add(EnvironmentLight{.picture = make_image(1, 1, Rgb{0.2f, 0.4f, 1})});
 template <std::floating_point T>
 struct EnvironmentLightT {
-    using Scalar = T; ///< The precision.
-    /// Radiance, W/(m^2 sr); of any width and height, not black everywhere.
+    using Scalar = T; ///< The precision of its numbers.
+    /// Radiance, W/(m^2 sr), in any width and height. One pixel at least is not black.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
     T strength = T(1); ///< Factor of all radiance, above 0.
     T rotation_degrees =
@@ -51,8 +52,8 @@ using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in flo
 /// An environment as its scene stores it.
 template <std::floating_point T>
 struct EnvironmentInSceneT {
-    using Scalar = T;              ///< The precision.
-    ImageT<T> picture{};           ///< Radiance, W/(m^2 sr), with the strength.
+    using Scalar = T;              ///< The precision of its numbers.
+    ImageT<T> picture{};           ///< Radiance times strength, W/(m^2 sr).
     PiecewiseConstant2D density{}; ///< Brightness times solid angle of each pixel.
     RgbT<T> sum{T(0)};             ///< The integral of the radiance, W/m^2.
     T turn = T(0);                 ///< The rotation, in whole turns.
@@ -61,15 +62,16 @@ struct EnvironmentInSceneT {
 
 namespace detail {
 
-/// 1 - cos of an angle that is a fraction of pi, without cancellation.
+/// 1 - cos of an angle, without cancellation.
+/// \param fraction  The angle over pi.
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cos_of(T fraction) noexcept {
     const T sine = std::sin(fraction * (std::numbers::pi_v<T> / T(2)));
     return T(2) * sine * sine;
 }
 
-/// The solid angle of a pixel, in steradians: a belt of the sphere is as large as the
-/// difference of its heights.
+/// The solid angle of a pixel in row y, in steradians. A row of pixels is a belt of the
+/// unit sphere. The area of a belt is 2 pi times its extent in height.
 // [solid angle of pixel]
 [[nodiscard]] inline double solid_angle_of_pixel(int width, int height,
                                                  int y) noexcept {
@@ -82,13 +84,13 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The picture of a clear sky that is brighter or darker towards the horizon, for an
-/// EnvironmentLightT. Above the horizon the radiance is linear in the sine of the
-/// elevation, below it is that of the ground.
+/// The picture of a sky with a gradient, for an EnvironmentLightT. Above the horizon
+/// the radiance is linear in the sine of the elevation. Below the horizon it is that of
+/// the ground.
 /// \param horizon  Radiance at the horizon, W/(m^2 sr).
-/// \param zenith   Radiance straight up.
-/// \param ground   Radiance below the horizon.
-/// \return One column of 256 pixels, each with the mean radiance of its belt.
+/// \param zenith   Radiance straight up, W/(m^2 sr).
+/// \param ground   Radiance below the horizon, W/(m^2 sr).
+/// \return One column of 256 pixels. Each has the mean radiance of its directions.
 template <std::floating_point T>
 [[nodiscard]] ImageT<T> gradient_sky(const RgbT<T>& horizon, const RgbT<T>& zenith,
                                      const RgbT<T>& ground) {
@@ -103,7 +105,7 @@ template <std::floating_point T>
     return picture;
 }
 
-/// A gradient_sky() in float; accepts colours in braces.
+/// gradient_sky() in float. It accepts colours in braces.
 [[nodiscard]] inline Image gradient_sky(const Rgb& horizon, const Rgb& zenith,
                                         const Rgb& ground) {
     return gradient_sky<float>(horizon, zenith, ground);
@@ -112,10 +114,10 @@ template <std::floating_point T>
 /// \name An environment
 /// \{
 
-/// Refuses an invalid light.
-/// \throws std::invalid_argument  if the strength is not above 0 and finite, the
-///         rotation not finite, or the picture empty, black in every pixel, or in some
-///         pixel negative or not finite.
+/// Checks an environment.
+/// \throws std::invalid_argument  if the strength is not finite and above 0; if the
+///         rotation is not finite; or if the picture is empty, is black in every pixel,
+///         or has a value that is negative or not finite.
 template <std::floating_point T>
 void check(const EnvironmentLightT<T>& light) {
     require_positive("environment light.strength", light.strength);
@@ -124,8 +126,8 @@ void check(const EnvironmentLightT<T>& light) {
     require_radiance("environment light.picture", light.picture);
 }
 
-/// Prepares a checked environment for its scene.
-/// \cost A sum over all pixels; 8 bytes a pixel beside the picture.
+/// Prepares an environment for its scene. The environment must have passed check().
+/// \cost A sum over all pixels; 8 bytes per pixel besides the picture.
 template <std::floating_point T>
 [[nodiscard]] EnvironmentInSceneT<T> in_scene(const EnvironmentLightT<T>& light,
                                               const SphereT<T>& around) {
@@ -135,7 +137,7 @@ template <std::floating_point T>
                                 .around = around};
     const int width = made.picture.width, height = made.picture.height;
     for (RgbT<T>& radiance : made.picture.pixels) radiance *= light.strength;
-    std::vector<double> solid_angle; // of a pixel in each row
+    std::vector<double> solid_angle; // of one pixel of each row
     for (int y = 0; y < height; ++y)
         solid_angle.push_back(detail::solid_angle_of_pixel(width, height, y));
     RgbT<double> sum{0};
@@ -149,8 +151,8 @@ template <std::floating_point T>
     return made;
 }
 
-/// The flux into the sphere around the scene, in W: the radiance over all directions,
-/// each through the disc pi R^2.
+/// The flux into the sphere around the scene, in W: the integral of the radiance over
+/// all directions, times the area of the sphere's cross section.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const EnvironmentInSceneT<T>& light) noexcept {
     return detail::disc_area(light.around.radius) * light.sum;
@@ -160,13 +162,13 @@ namespace detail {
 
 template <std::floating_point T>
 struct SkyDirectionT {
-    Vec3T<T> wi{T(0)};      ///< Unit, towards the sky.
+    Vec3T<T> wi{T(0)};      ///< Unit direction towards the sky.
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
-    T pdf = T(0);           ///< Per steradian.
+    T pdf = T(0);           ///< Density of `wi`, per steradian.
 };
 
-/// The density of a direction in a pixel, per steradian: its brightness over the
-/// integral of all brightness.
+/// The density of sample_sky() for a direction of the given radiance, per steradian:
+/// the brightness over the integral of the brightness.
 // [pdf of pixel]
 template <std::floating_point T>
 [[nodiscard]] T pdf_of_pixel(const EnvironmentInSceneT<T>& light,
@@ -175,15 +177,15 @@ template <std::floating_point T>
 }
 // [pdf of pixel]
 
-/// Samples a direction to the sky by its brightness: a pixel, and in it a direction,
-/// uniform in solid angle.
+/// Samples a direction to the sky. A pixel is chosen in proportion to its brightness
+/// times its solid angle. The direction is uniform in the solid angle of the pixel.
 // [sample_sky]
 template <std::floating_point T>
 [[nodiscard]] SkyDirectionT<T> sample_sky(const EnvironmentInSceneT<T>& light,
                                           const Vec2T<T>& u) noexcept {
     const CellT<T> at = sample_cell(light.density, u);
     const int rows = light.picture.height;
-    // From the nearer pole, so that the belts around both keep their digits.
+    // Rows are counted from the nearer pole, so that small angles keep their digits.
     const bool down = 2 * at.y >= rows;
     const int row = down ? rows - 1 - at.y : at.y;
     const T within = down ? T(1) - at.within.y : at.within.y;
@@ -202,11 +204,11 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples the light for a shadow ray, which ends outside the scene.
+/// Samples the light for a shadow ray. The ray ends outside the scene.
 /// \param light  The light.
 /// \param from   The lit point, within the sphere around the scene.
 /// \param u      Point of the unit square.
-/// \return Radiance / pdf: the same for all directions, if the sky has one colour.
+/// \return The sample. Its weight is the radiance over the pdf.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const EnvironmentInSceneT<T>& light, const Vec3T<T>& from,
@@ -219,8 +221,8 @@ sample_light(const EnvironmentInSceneT<T>& light, const Vec3T<T>& from,
         .pdf = pdf};
 }
 
-/// Samples the direction of a photon by brightness.
-/// \return The direction, and the radiance over its density.
+/// Samples the direction of a photon in proportion to the brightness of the sky.
+/// \return The direction, and the radiance over the density of the direction.
 template <std::floating_point T>
 [[nodiscard]] ArrivalT<T> sample_arrival(const EnvironmentInSceneT<T>& light,
                                          const Vec2T<T>& u) noexcept {
@@ -228,10 +230,10 @@ template <std::floating_point T>
     return {-wi, radiance / pdf};
 }
 
-/// The radiance that a ray finds when it leaves the scene.
+/// The radiance that a ray meets when it leaves the scene.
 /// \param light      The light.
 /// \param direction  Unit direction of the ray.
-/// \return W/(m^2 sr): that of one pixel, without interpolation.
+/// \return The radiance of one pixel, without interpolation, in W/(m^2 sr).
 // [escaped_radiance]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> escaped_radiance(const EnvironmentInSceneT<T>& light,
@@ -243,7 +245,7 @@ template <std::floating_point T>
     T turns =
         inv_pi / T(2) * std::atan2(direction.x, -direction.z) + T(0.5) + light.turn;
     turns -= std::floor(turns);
-    // Rounding may give the number of columns or rows, which is one too many.
+    // By rounding, a product may be the number of columns or of rows: one too large.
     const int column = std::min(int(turns * T(picture.width)), picture.width - 1);
     const int row = std::min(int(down * T(picture.height)), picture.height - 1);
     return pixel(picture, column, row);

@@ -15,58 +15,61 @@
 namespace ljus {
 
 /// \defgroup goniometric Goniometric lamps
-/// \brief Beyond the report: lamps as their makers measure them. Chapter: \ref
-/// ch_lamps.
+/// \brief Beyond the report: lamps with measured intensities. Chapter: \ref ch_lamps.
 ///
-/// A goniophotometer turns a lamp about two axes and writes down its intensity in each
-/// position \cite lm63. The two angles are coordinates on the sphere of directions, and
-/// the type of the photometer says where their pole lies:
+/// A goniophotometer turns a lamp about two axes and measures its intensity in each
+/// position \cite lm63. The two angles are coordinates on the sphere of directions. The
+/// type of the photometer determines the pole of these coordinates. In the table,
+/// `direction` and `reference` are vectors of the lamp, see GoniometricLightT:
 ///
 /// | type | pole                  | polar angle     | azimuth                        |
 /// |------|-----------------------|-----------------|--------------------------------|
-/// | C    | where the lamp shines | vertical        | horizontal, from `reference`   |
-/// | B    | to the side           | 90 - horizontal | vertical, from where it aims  |
-/// | A    | `reference`           | 90 - vertical   | horizontal, from where it aims |
+/// | C    | `direction`           | vertical        | horizontal, from `reference`   |
+/// | B    | the side              | 90 - horizontal | vertical, from `direction`     |
+/// | A    | `reference`           | 90 - vertical   | horizontal, from `direction`   |
 ///
-/// The side is the cross product of `direction` and `reference`; horizontal angles grow
-/// towards it, vertical angles of the types B and A towards `reference`.
+/// The side is the cross product of `direction` and `reference`. Horizontal angles grow
+/// towards the side. For the types B and A vertical angles grow towards `reference`.
 /// \{
 
-/// The axes of a goniophotometer.
+/// The type of a goniophotometer; see \ref goniometric.
 enum class Photometry : std::uint8_t {
-    c, ///< Lamps of rooms and streets: the pole is where the lamp shines.
-    b, ///< Floodlights: the pole is to the side.
-    a  ///< Headlights: the pole is up.
+    c, ///< For lamps of rooms and streets: the pole is `direction`.
+    b, ///< For floodlights: the pole is the side of the lamp.
+    a  ///< For headlights: the pole is `reference`, which points up.
 };
 
-/// Intensities over a grid of angles, interpolated bilinearly in the angles. Beyond the
-/// first and the last angles it is dark.
+/// Intensities at a grid of angles. Between the angles they are interpolated
+/// bilinearly. Outside the range of the angles the intensity is 0.
 struct IntensityTable {
-    Photometry type = Photometry::c; ///< Where the pole of the angles lies.
-    std::vector<double> polar{};     ///< Degrees from the pole, within [0, 180]; at
-                                     ///< least two, growing.
-    std::vector<double> azimuth{};   ///< Degrees, within [-360, 720]; at least two,
-                                     ///< growing, and at most 360 apart.
-    std::vector<double> candela{};   ///< For each azimuth, the intensities at all polar
-                                     ///< angles; cd, at least 0.
+    Photometry type = Photometry::c; ///< Determines the pole of the angles.
+    /// Polar angles in degrees, within [0, 180]: at least two, in increasing order.
+    std::vector<double> polar{};
+    /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, over
+    /// a range of at most 360.
+    std::vector<double> azimuth{};
+    /// Intensities in cd, at least 0. Those at all polar angles of the first azimuth
+    /// come first.
+    std::vector<double> candela{};
 };
 
-/// A light without extent whose intensity is a table, as load_ies() reads it.
+/// A light without extent whose intensity is given by a table, for example by one that
+/// load_ies() has read.
 ///
 ///     scene.add(GoniometricLight{.table = load_ies("spot.ies").table,
 ///                                .position{0, 2.4f, 0}});
 template <std::floating_point T>
 struct GoniometricLightT {
-    using Scalar = T;             ///< The precision.
+    using Scalar = T;             ///< The precision of its numbers.
     IntensityTable table{};       ///< The intensities.
     Vec3T<T> position{T(0)};      ///< In scene units.
-    Vec3T<T> direction{0, -1, 0}; ///< In which the lamp shines; any length but 0.
-    /// A vector on the side of horizontal angle 0 (type C), or of vertical angle 90
-    /// (types B and A): it says how the lamp is turned about its direction. It need not
-    /// be perpendicular to the direction.
+    Vec3T<T> direction{0, -1, 0}; ///< Axis along which it shines; any length but 0.
+    /// Determines how the lamp is turned about its direction: a vector towards
+    /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
+    /// need not be perpendicular to the direction, but must not be parallel to it.
     Vec3T<T> reference{0, 0, -1};
-    /// W/sr for each candela. The default makes 683 times the luminance of a colour a
-    /// photometric quantity, because 683 lumens are a watt of green light.
+    /// Watts per lumen, for each channel. With the default, 683 times the luminance of
+    /// a rendered radiance is in cd/m^2, because a watt of green light is 683 lumens.
     RgbT<T> watts_per_lumen{T(1) / T(683)};
 };
 using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in float.
@@ -74,16 +77,17 @@ using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in flo
 /// A goniometric light as its scene stores it.
 template <std::floating_point T>
 struct GoniometricInSceneT {
-    using Scalar = T;              ///< The precision.
+    using Scalar = T;              ///< The precision of its numbers.
     Vec3T<T> position{T(0)};       ///< In scene units.
     FrameT<T> frame{};             ///< The normal is the pole, the tangent azimuth 0.
-    std::vector<double> polar{};   ///< Radians.
-    std::vector<double> azimuth{}; ///< Radians.
-    std::vector<double> candela{}; ///< As in an IntensityTable.
-    PiecewiseConstant2D cells{};   ///< Flux between neighbouring angles, lm; a row for
-                                   ///< each interval of polar angles.
+    std::vector<double> polar{};   ///< Polar angles in radians.
+    std::vector<double> azimuth{}; ///< Azimuths in radians.
+    std::vector<double> candela{}; ///< Intensities, as in an IntensityTable.
+    /// The flux between neighbouring angles, in lm. A row is an interval of polar
+    /// angles.
+    PiecewiseConstant2D cells{};
     RgbT<T> watts_per_lumen{T(0)}; ///< As in a GoniometricLightT.
-    detail::ConeT<T> cone{};       ///< All directions in which it shines.
+    detail::ConeT<T> cone{};       ///< A cone around all directions of emission.
 };
 
 namespace detail {
@@ -99,11 +103,15 @@ namespace detail {
 }
 // [line times sine]
 
-/// Where the integral of a linear function times the sine reaches a part of its value.
-/// \param c0      The function at the beginning, at least 0.
-/// \param part    In [0, 1].
+/// The inverse of line_times_sine(): the x at which the integral is a given part of its
+/// value at x = length.
+/// \param c0      The linear function at x = 0, at least 0.
+/// \param c1      The slope of the linear function.
+/// \param theta0  The angle at x = 0, in radians.
+/// \param length  The largest x, in radians.
+/// \param part    The part, in [0, 1].
 /// \return In [0, length].
-/// \cost Some four steps of Newton's method, between bounds that close in.
+/// \cost About four steps of Newton's method, safeguarded by bisection.
 [[nodiscard]] inline double invert_line_times_sine(double c0, double c1, double theta0,
                                                    double length,
                                                    double part) noexcept {
@@ -121,23 +129,24 @@ namespace detail {
     return x;
 }
 
-/// Where the integral of a linear function over [0, 1] reaches a part of its value.
+/// The x at which the integral of a linear function from 0 to x is a given part of its
+/// integral from 0 to 1.
 /// \param a, b  The function at 0 and at 1, at least 0.
-/// \param part  In [0, 1].
+/// \param part  The part, in [0, 1].
 [[nodiscard]] inline double invert_line(double a, double b, double part) noexcept {
-    // The root of (b - a) x^2 / 2 + a x = part (a + b) / 2 that lies in [0, 1].
+    // x is the root in [0, 1] of (b - a) x^2 / 2 + a x = part (a + b) / 2.
     const double both = part * (a + b);
     return both > 0 ? both / (a + std::sqrt(a * a + (b - a) * both)) : part;
 }
 
-/// A position between the angles of a table.
+/// A position between two neighbouring angles of a table.
 struct BetweenAngles {
-    std::size_t index = 0; ///< Of the angle before.
-    double part = 0;       ///< Within [0, 1], from there to the next.
+    std::size_t index = 0; ///< The index of the smaller angle.
+    double part = 0;       ///< From 0 at the smaller angle to 1 at the larger one.
 };
 
-/// The interval of growing angles in which an angle lies.
-/// \return Nothing outside of all of them.
+/// The position of an angle among angles in increasing order.
+/// \return Nothing if the angle is outside their range.
 [[nodiscard]] inline std::optional<BetweenAngles>
 between_angles(const std::vector<double>& angles, double angle) noexcept {
     if (!(angle >= angles.front() && angle <= angles.back())) return std::nullopt;
@@ -147,12 +156,17 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
+/// The intensities at the four corners of a cell of the table, in cd.
 struct CellCorners {
-    double low[2] = {};  ///< At the smaller polar angle, at both azimuths.
-    double high[2] = {}; ///< At the larger one.
+    double low[2] = {};  ///< At the smaller polar angle, for both azimuths.
+    double high[2] = {}; ///< At the larger polar angle, for both azimuths.
 };
 
-/// The intensities around a cell.
+/// The intensities at the corners of a cell.
+/// \param candela  IntensityTable::candela.
+/// \param rows     The number of polar angles.
+/// \param polar    Index of the cell's smaller polar angle.
+/// \param azimuth  Index of the cell's smaller azimuth.
 [[nodiscard]] inline CellCorners corners_of(const std::vector<double>& candela,
                                             std::size_t rows, std::size_t polar,
                                             std::size_t azimuth) noexcept {
@@ -161,8 +175,7 @@ struct CellCorners {
     return {{left[0], right[0]}, {left[1], right[1]}};
 }
 
-/// The intensity in a direction.
-/// \return cd.
+/// The intensity in a direction, in cd.
 template <std::floating_point T>
 [[nodiscard]] double intensity_towards(const GoniometricInSceneT<T>& light,
                                        const Vec3T<T>& wo) noexcept {
@@ -182,7 +195,8 @@ template <std::floating_point T>
                      std::lerp(high[0], high[1], azimuth->part), polar->part);
 }
 
-/// The frame of a table's angles in the world.
+/// The frame of a table's angles in the world: the normal is the pole, the tangent the
+/// direction of azimuth 0.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_of(const GoniometricLightT<T>& light) {
     const Vec3T<T> aim = unit_along("goniometric light.direction", light.direction);
@@ -202,7 +216,8 @@ template <std::floating_point T>
     }
 }
 
-/// Refuses angles that do not grow.
+/// Requires at least two angles within [first, last], in increasing order and at least
+/// 0.001 degrees apart.
 inline void check_angles(const std::vector<double>& angles, const char* what,
                          double first, double last) {
     require_at_least(join({"the number of ", what, " angles"}),
@@ -223,9 +238,9 @@ inline void check_angles(const std::vector<double>& angles, const char* what,
 /// \name A goniometric light
 /// \{
 
-/// Refuses an invalid table.
-/// \throws std::invalid_argument  if angles are out of range or do not grow, or an
-///         intensity is negative, not finite or missing.
+/// Checks a table of intensities.
+/// \throws std::invalid_argument  if an angle is out of range; if angles are not in
+///         increasing order; or if an intensity is missing, negative or above 1e12 cd.
 inline void check(const IntensityTable& table) {
     detail::check_angles(table.polar, "polar", 0, 180);
     detail::check_angles(table.azimuth, "azimuth", -360, 720);
@@ -239,9 +254,10 @@ inline void check(const IntensityTable& table) {
                 "within [0, 1e12] cd");
 }
 
-/// Refuses an invalid light.
-/// \throws std::invalid_argument  as check() of its table, or if a vector is not
-///         finite, the reference is along the direction, or `watts_per_lumen` negative.
+/// Checks a goniometric light.
+/// \throws std::invalid_argument  as check() of the table; if a vector is not finite;
+///         if direction or reference is 0, or both are parallel; or if
+///         `watts_per_lumen` is negative or not finite.
 template <std::floating_point T>
 void check(const GoniometricLightT<T>& light) {
     check(light.table);
@@ -250,9 +266,9 @@ void check(const GoniometricLightT<T>& light) {
     (void)detail::frame_of(light);
 }
 
-/// Prepares a checked light for its scene: integrates the intensity between
-/// neighbouring angles.
-/// \cost 8 bytes for each intensity beside the table.
+/// Prepares a light for its scene: integrates the intensity between neighbouring
+/// angles. The light must have passed check().
+/// \cost 8 bytes per intensity besides the table.
 template <std::floating_point T>
 [[nodiscard]] GoniometricInSceneT<T> in_scene(const GoniometricLightT<T>& light,
                                               const SphereT<T>&) {
@@ -267,7 +283,7 @@ template <std::floating_point T>
     for (double& angle : made.polar) angle *= radians;
     for (double& angle : made.azimuth) angle *= radians;
     const std::size_t rows = table.polar.size();
-    double widest = 0; // polar angle up to which it shines
+    double widest = 0; // polar angle beyond which the intensity is 0
     const auto flux_of = [&](int x, int y) {
         const auto i = static_cast<std::size_t>(y), j = static_cast<std::size_t>(x);
         const auto [low, high] = detail::corners_of(made.candela, rows, i, j);
@@ -292,8 +308,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The flux of the table: the integral of the intensity over all directions.
-/// \return lm; 0 for a table that is dark everywhere.
+/// The emitted flux in lm: the integral of the intensity over all directions.
 template <std::floating_point T>
 [[nodiscard]] double lumens_of(const GoniometricInSceneT<T>& light) noexcept {
     return light.cells.rows.empty() ? 0 : light.cells.rows.back();
@@ -301,14 +316,15 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The flux in W: the exact integral of the table over all directions.
+/// The emitted flux in W. It is the exact integral of the interpolated intensities.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const GoniometricInSceneT<T>& light) noexcept {
     return static_cast<T>(detail::lumens_of(light)) * light.watts_per_lumen;
 }
 
 /// Samples the light for a shadow ray from a point.
-/// \return Intensity / distance^2 with the density 0; nothing where it is dark.
+/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
+///         Nothing if the intensity towards `from` is 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const GoniometricInSceneT<T>& light, const Vec3T<T>& from,
@@ -319,16 +335,17 @@ sample_light(const GoniometricInSceneT<T>& light, const Vec3T<T>& from,
     });
 }
 
-/// The origin of its photons.
+/// The point from which the light emits photons: its position.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const GoniometricInSceneT<T>& light,
                                       const Vec2T<T>&, T) noexcept {
     return light.position;
 }
 
-/// Samples the unit direction of a photon, with the density of the intensity: a cell of
-/// the table by its flux, the polar angle in it, and the azimuth at that polar angle.
-/// \cost Two binary searches, and some four sines and cosines for Newton's method.
+/// Samples the unit direction of a photon, in proportion to the intensity. The function
+/// chooses a cell of the table by its flux, then a polar angle within the cell, and
+/// then an azimuth.
+/// \cost Two binary searches, and about four sines and cosines for Newton's method.
 // [sample_emission]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const GoniometricInSceneT<T>& light,
@@ -353,7 +370,7 @@ template <std::floating_point T>
 }
 // [sample_emission]
 
-/// The density of sample_emission(): intensity over flux, per steradian.
+/// The density of sample_emission(), per steradian: intensity over emitted flux.
 template <std::floating_point T>
 [[nodiscard]] T pdf_emission(const GoniometricInSceneT<T>& light, const Vec3T<T>&,
                              const Vec3T<T>& wo) noexcept {
@@ -361,8 +378,8 @@ template <std::floating_point T>
                           detail::lumens_of(light));
 }
 
-/// A cone around all directions in which it shines; for the types B and A all
-/// directions.
+/// A cone around all directions in which the light shines. For the types B and A it is
+/// the whole sphere.
 template <std::floating_point T>
 [[nodiscard]] detail::ConeT<T> emission_cone(const GoniometricInSceneT<T>& light,
                                              const Vec3T<T>&) noexcept {

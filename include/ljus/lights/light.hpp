@@ -19,24 +19,25 @@ namespace ljus {
 /// \defgroup light Lights
 /// \brief Section 3.2.3: the targets of shadow rays and the sources of photons.
 ///
-/// A light is a struct with a member type `Scalar` and free functions beside it. All
-/// lights have three of them:
+/// A light is a struct with a member type `Scalar` and free functions. All lights have
+/// these three functions:
 ///
 /// | function                           | returns                                     |
 /// |------------------------------------|---------------------------------------------|
 /// | check(light)                       | nothing; throws, and names the wrong member |
-/// | power(light)                       | the flux that leaves it, W                  |
+/// | power(light)                       | the emitted flux, W                         |
 /// | sample_light(light, from, u, time) | a LightSampleT for a shadow ray             |
 ///
-/// There are two kinds of emission. A near light (NearLight) emits photons from its
-/// points:
+/// A light is near or distant. A near light (NearLight) emits photons from its points,
+/// and has the functions
 /// | function                            | returns                                    |
 /// |-------------------------------------|--------------------------------------------|
 /// | emission_point(light, u, time)      | a point; on a surface a SurfacePointT      |
-/// | sample_emission(light, point, u)    | the unit direction of a photon from there  |
-/// | pdf_emission(light, point, wo)      | the density of that direction, per sr      |
+/// | sample_emission(light, point, u)    | the unit direction of a photon             |
+/// | pdf_emission(light, point, wo)      | the density of sample_emission(), per sr   |
 ///
 /// A distant light (FarLight) has a member `around`, the sphere around the scene, and
+/// the function
 ///
 /// | function                            | returns                                    |
 /// |-------------------------------------|--------------------------------------------|
@@ -51,50 +52,57 @@ namespace ljus {
 /// The unoccluded light from one sampled point of a light.
 template <std::floating_point T>
 struct LightSampleT {
-    SurfacePointT<T> point{}; ///< End of the shadow ray; its error bound is 0 unless it
-                              ///< lies on a surface.
-    Vec3T<T> wi{T(0)};        ///< Unit direction to the light.
-    RgbT<T> weight{T(0)};     ///< Radiance / pdf; intensity / distance^2 for a point or
-                              ///< spot light; irradiance for a sun.
-    T pdf = T(0);             ///< Per steradian; 0 if no path can hit the light.
+    /// End of the shadow ray. Its error bound is 0 unless the point lies on a surface.
+    SurfacePointT<T> point{};
+    Vec3T<T> wi{T(0)}; ///< Unit direction to the light.
+    /// For a light that paths can hit: radiance over pdf. For a point or spot light:
+    /// intensity over squared distance. For a sun: irradiance.
+    RgbT<T> weight{T(0)};
+    T pdf = T(0); ///< Density of `wi` per steradian; 0 if no path can hit the light.
 };
 
 /// The light that arrives from a distant light.
 template <std::floating_point T>
 struct ArrivalT {
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
-    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a perpendicular surface; over the density of
-                              ///< the direction if that was sampled.
+    /// W/m^2 on a perpendicular surface. If the direction was sampled, this is the
+    /// radiance over the density of the direction.
+    RgbT<T> irradiance{T(0)};
 };
 
 namespace detail {
 
-/// Refuses a flux that is 0 or leaves the range of T.
+/// Requires a flux that is finite and not 0.
 template <std::floating_point T>
 void require_flux(const RgbT<T>& flux) {
     require(is_finite(flux) && !is_black(flux), "the flux of a light", flux,
             "finite and above 0");
 }
 
-/// The brightness by which a colour is sampled: the sum of its channels, as for the
-/// choice of a light by power.
+/// The brightness of a colour, for sampling: the sum of its channels.
 template <std::floating_point T>
 [[nodiscard]] constexpr T brightness(const RgbT<T>& c) noexcept {
     return c.x + c.y + c.z;
 }
 
-/// Normalises a direction of any length.
+/// Normalises a direction of any length above 0.
+/// \param what  The name of the direction, for the message.
+/// \param way   The direction.
+/// \throws std::invalid_argument  if the direction is 0 or not finite.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
     require_finite(what, way);
-    // Scaled first, because in float the square of 1e-30 is 0.
+    // The direction is scaled first, because in float the square of 1e-30 is 0.
     const T most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
     require(most > T(0), what, way, "of a length above 0");
     return glm::normalize(way / most);
 }
 
-/// The sample of a point-like light: intensity / distance^2.
-/// \param intensity  Called with the unit direction away from the light; W/sr.
+/// The sample of a light without extent. Its weight is intensity over squared distance.
+/// \param position   The position of the light.
+/// \param from       The lit point.
+/// \param intensity  A function of the unit direction away from the light; returns
+///                   W/sr.
 /// \return The sample; nothing if no light arrives.
 template <std::floating_point T, typename Intensity>
 [[nodiscard]] std::optional<LightSampleT<T>> sample_point(const Vec3T<T>& position,
@@ -113,14 +121,15 @@ template <std::floating_point T, typename Intensity>
 
 } // namespace detail
 
-/// Prepares a light for its scene: a sun receives the sphere around the scene, a spot
-/// the cosines of its angles. By default the light is unchanged.
+/// Prepares a light for its scene. A light that needs no preparation is stored
+/// unchanged, by this function. A sun has its own in_scene(), which adds the sphere
+/// around the scene.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;
 }
 
-/// A light as its scene stores it.
+/// The type in which a scene stores a light: the result of in_scene().
 template <typename L>
 using InSceneT = std::remove_cvref_t<decltype(in_scene(
     std::declval<const L&>(), std::declval<const SphereT<typename L::Scalar>&>()))>;
@@ -139,14 +148,16 @@ concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,
         } -> std::same_as<typename L::Scalar>;
 };
 
-/// A light so distant that only directions matter.
+/// A light at infinity. The radiance from a direction is the same at all points of the
+/// scene.
 template <typename L>
 concept FarLight = requires(const L& light, const Vec2T<typename L::Scalar>& u) {
     { light.around } -> std::convertible_to<SphereT<typename L::Scalar>>;
     { sample_arrival(light, u) } -> std::same_as<ArrivalT<typename L::Scalar>>;
 };
 
-/// A light as its scene stores it; see the group \ref light.
+/// A light as its scene stores it. Its functions are described at the top of this page,
+/// \ref light.
 template <typename L>
 concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
                          const Vec2T<typename L::Scalar>& u, typename L::Scalar time) {
@@ -157,8 +168,8 @@ concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
 }
 &&(NearLight<L> || FarLight<L>);
 
-/// A light as a program adds it to a scene: it has check(), and in_scene() makes it a
-/// Light.
+/// A light as a program adds it to a scene. It has check(), and in_scene() turns it
+/// into a Light.
 template <typename L>
 concept LightSource = requires(const L& light) {
     typename L::Scalar;
@@ -166,7 +177,9 @@ concept LightSource = requires(const L& light) {
 }
 &&Light<InSceneT<L>>;
 
-/// A light that a ray sees when it leaves the scene: it has escaped_radiance().
+/// A light that is seen by rays that leave the scene. It has escaped_radiance(), the
+/// radiance from a direction, and pdf_escaped(), the density with which sample_light()
+/// chooses this direction, per steradian.
 template <typename L>
 concept FillsSky = requires(const L& light,
                             const Vec3T<typename L::Scalar>& direction) {
@@ -201,8 +214,8 @@ template <Light L>
 // clang-format on
 }
 
-/// The cone of all directions into which a point of a light emits; all directions for a
-/// light without emission_cone().
+/// A cone that contains all directions into which a point of a light emits. Without
+/// emission_cone() it is the whole sphere.
 template <typename L, typename Point>
 [[nodiscard]] ConeT<typename L::Scalar> cone_of_emission(const L& light,
                                                          const Point& point) {
@@ -212,7 +225,7 @@ template <typename L, typename Point>
         return {};
 }
 
-/// The position of a point of a light, on a surface or not.
+/// The position of an emission_point(), which may or may not lie on a surface.
 template <std::floating_point T>
 [[nodiscard]] const Vec3T<T>& position_of(const SurfacePointT<T>& point) noexcept {
     return point.position;
@@ -222,8 +235,13 @@ template <std::floating_point T>
     return point;
 }
 
-/// A ray of a distant light through a disc; it starts on a plane outside the scene.
-/// \param u          Point of the unit square; chooses the point of the disc.
+/// A ray of a distant light through a random point of a disc. The disc is perpendicular
+/// to the ray. The ray starts on a plane outside the scene.
+/// \param around     The sphere around the scene.
+/// \param direction  Unit direction of the ray.
+/// \param center     Centre of the disc.
+/// \param radius     Radius of the disc.
+/// \param u          Point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_from_afar(const SphereT<T>& around, const Vec3T<T>& direction,
                                     const Vec3T<T>& center, T radius,
@@ -235,7 +253,7 @@ template <std::floating_point T>
             .direction = direction};
 }
 
-/// The area of the disc that a sphere casts as its shadow.
+/// The area of a disc: the cross section of a sphere of this radius.
 template <std::floating_point T>
 [[nodiscard]] constexpr T disc_area(T radius) noexcept {
     return std::numbers::pi_v<T> * radius * radius;

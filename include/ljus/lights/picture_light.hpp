@@ -20,16 +20,17 @@ namespace ljus {
 /// \addtogroup picture_lamp
 /// \{
 
-/// A textured lamp as a World stores it: an object with a radiance, of a material that
-/// ShowsPicture. Its points are sampled by the brightness of their pixels.
+/// A textured lamp as a World stores it. A World makes it from an object with a
+/// radiance whose material ShowsPicture. The points of the lamp are sampled in
+/// proportion to the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
-    using Scalar = T;            ///< The precision.
-    QuadT<T> frame{};            ///< The whole picture: the quad, or around the disc.
-    Vec3T<T> normal{T(0)};       ///< Unit, on the side that shines.
-    bool round = false;          ///< Whether only the circle in the frame shines.
+    using Scalar = T;            ///< The precision of its numbers.
+    QuadT<T> frame{};            ///< The quad, or the square around the disc.
+    Vec3T<T> normal{T(0)};       ///< Unit normal on the side that shines.
+    bool round = false;          ///< True for a disc: only the circle shines.
     ImageT<T> picture{};         ///< Radiance, W/(m^2 sr).
-    PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside of a disc.
+    PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside a disc.
     double pixel_area = 0;       ///< In squared scene units.
     RgbT<T> flux{T(0)};          ///< W.
 };
@@ -39,8 +40,8 @@ namespace detail {
 template <typename T>
 inline constexpr bool is_lamp<PictureLightT<T>> = true;
 
-/// The area of the part of the unit disc with 0 <= x <= a and 0 <= y <= b; negative if
-/// one of a and b is.
+/// The area of the part of the unit disc with 0 <= x <= |a| and 0 <= y <= |b|, times
+/// the sign of the product a b.
 [[nodiscard]] inline double quarter_area(double a, double b) noexcept {
     const double x = std::min(std::abs(a), 1.0), y = std::min(std::abs(b), 1.0);
     const auto below_arc = [](double t) { // the integral of sqrt(1 - t^2) from 0
@@ -52,7 +53,7 @@ inline constexpr bool is_lamp<PictureLightT<T>> = true;
     return std::copysign(1.0, a) * std::copysign(1.0, b) * area;
 }
 
-/// The fraction of a pixel that lies in the circle in the picture.
+/// The fraction of the pixel (x, y) that lies in the circle inscribed in the picture.
 [[nodiscard]] inline double fraction_in_circle(int width, int height, int x,
                                                int y) noexcept {
     const auto edge = [](int i, int count) { return 2.0 * i / count - 1; };
@@ -63,7 +64,7 @@ inline constexpr bool is_lamp<PictureLightT<T>> = true;
     return std::clamp(area / ((right - left) * (bottom - top)), 0.0, 1.0);
 }
 
-/// The frame of a picture on a quad.
+/// The frame of a picture on a quad: the quad itself.
 template <std::floating_point T>
 [[nodiscard]] QuadT<T> picture_frame(const QuadT<T>& quad) noexcept {
     return quad;
@@ -83,11 +84,12 @@ template <std::floating_point T>
 
 /// Makes a textured lamp.
 /// \param shape       A quad or a disc.
-/// \param picture     Factors of the radiance, as of a PictureLampT.
+/// \param picture     The picture. Its colours are factors of the radiance.
 /// \param radiance    W/(m^2 sr).
-/// \param inside_out  Whether it shines on the other side.
-/// \throws std::invalid_argument  if no pixel shines, or if the shape is another.
-/// \cost 8 bytes a pixel beside the picture.
+/// \param inside_out  True if the lamp shines against its normal.
+/// \throws std::invalid_argument  if no pixel shines, or if the shape is not a quad or
+///         a disc.
+/// \cost 8 bytes per pixel besides the picture.
 template <typename S, std::floating_point T>
 [[nodiscard]] PictureLightT<T>
 make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radiance,
@@ -117,9 +119,10 @@ make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radi
     }
 }
 
-/// The radiance at a point of the picture, W/(m^2 sr): that of a pixel.
+/// The radiance at a point of the picture, W/(m^2 sr), without interpolation between
+/// pixels.
 /// \param light  The lamp.
-/// \param uv     In [0, 1]^2; (0, 0) is the lower left corner.
+/// \param uv     Point in [0, 1]^2; (0, 0) is the lower left corner of the picture.
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& radiance_at(const PictureLightT<T>& light,
                                          const Vec2T<T>& uv) noexcept {
@@ -130,8 +133,10 @@ template <std::floating_point T>
                  cell(T(1) - uv.y, light.picture.height));
 }
 
-/// The density of a point of the lamp, per squared scene unit: the brightness of its
-/// pixel over the integral of all brightness.
+/// The density with which a point of the lamp is sampled, per squared scene unit: the
+/// brightness there over the integral of the brightness.
+/// \param light     The lamp.
+/// \param radiance  The radiance at the point, from radiance_at().
 // [pdf of point]
 template <std::floating_point T>
 [[nodiscard]] T pdf_of_point(const PictureLightT<T>& light,
@@ -141,7 +146,7 @@ template <std::floating_point T>
 }
 // [pdf of point]
 
-/// The flux: pi times the integral of the radiance over the area, in W.
+/// The emitted flux in W: pi times the integral of the radiance over the area.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const PictureLightT<T>& light) noexcept {
     return light.flux;
@@ -153,11 +158,11 @@ namespace detail {
 template <std::floating_point T>
 struct PicturePointT {
     SurfacePointT<T> point{}; ///< Its normal points to the side that shines.
-    Vec2T<T> uv{T(0)};        ///< In the picture.
+    Vec2T<T> uv{T(0)};        ///< Coordinates in the picture.
     const RgbT<T>& radiance;  ///< W/(m^2 sr).
 };
 
-/// Samples a point by the brightness of its pixel.
+/// Samples a point of the frame with the density pdf_of_point().
 template <std::floating_point T>
 [[nodiscard]] PicturePointT<T> sample_picture(const PictureLightT<T>& light,
                                               const Vec2T<T>& u) noexcept {
@@ -176,7 +181,7 @@ template <std::floating_point T>
     return !light.round || glm::dot(from_middle, from_middle) <= T(1);
 }
 
-/// The coordinates of a point in the frame.
+/// The coordinates (u, v) of a point in the frame.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> place_in(const QuadT<T>& frame, const Vec3T<T>& position) {
     const Vec3T<double> way(position - frame.corner), a(frame.edge_u), b(frame.edge_v);
@@ -188,8 +193,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Samples a point of the lamp for a shadow ray.
-/// \return The sample; nothing if `from` lies behind the lamp, or the point beside a
-///         disc, in a pixel on its edge.
+/// \return The sample. Nothing if `from` lies behind the lamp. For a disc, a point in a
+///         pixel on the edge may lie outside the disc; then also nothing.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,
@@ -205,7 +210,12 @@ sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>
         .point = point, .wi = wi, .weight = radiance / pdf, .pdf = pdf};
 }
 
-/// The density with which sample_light() chooses a point of the lamp; per steradian.
+/// The density with which sample_light() chooses a point of the lamp, per steradian at
+/// the lit point.
+/// \param light  The lamp.
+/// \param from   The lit point.
+/// \param point  The point of the lamp.
+/// \param uv     The coordinates of `point` in the picture.
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const PictureLightT<T>& light, const Vec3T<T>& from,
                             const SurfacePointT<T>& point, const Vec2T<T>& uv) {
@@ -213,16 +223,17 @@ template <std::floating_point T>
                                  T(1) / pdf_of_point(light, radiance_at(light, uv)));
 }
 
-/// Samples the origin of a photon by brightness; its normal points to the side that
-/// shines.
+/// Samples the origin of a photon with the density pdf_of_point().
+/// \return The point. Its normal points to the side that shines.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const PictureLightT<T>& light,
                                               const Vec2T<T>& u, T /*time*/) {
     return detail::sample_picture(light, u).point;
 }
 
-/// The flux of all photons of the lamp together, if each leaves from this point: pi
-/// times the radiance over the density; 0 beside a disc.
+/// The flux of a photon that leaves from a point, times the number of photons of the
+/// lamp: pi times the radiance over pdf_of_point(), in W. 0 for a point outside the
+/// disc.
 // [flux_from]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> flux_from(const PictureLightT<T>& light,

@@ -10,10 +10,10 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// A light without extent: it cannot be seen, and its shadows are hard.
+/// A light without extent. It casts hard shadows, and no ray can hit it.
 template <std::floating_point T>
 struct PointLightT {
-    using Scalar = T;        ///< The precision.
+    using Scalar = T;        ///< The precision of its numbers.
     Vec3T<T> position{T(0)}; ///< In scene units.
     RgbT<T> intensity{T(1)}; ///< W/sr, equal in all directions.
 };
@@ -22,8 +22,8 @@ using PointLight = PointLightT<float>; ///< PointLightT in float.
 /// \name A point light
 /// \{
 
-/// Refuses an invalid light.
-/// \throws std::invalid_argument  if the position is not finite, or the intensity
+/// Checks a point light.
+/// \throws std::invalid_argument  if the position is not finite, or if the intensity is
 ///         negative or not finite.
 template <std::floating_point T>
 void check(const PointLightT<T>& light) {
@@ -31,14 +31,15 @@ void check(const PointLightT<T>& light) {
     require_radiance("point light.intensity", light.intensity);
 }
 
-/// The flux: 4 pi I, in W.
+/// The emitted flux in W: 4 pi times the intensity.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const PointLightT<T>& light) noexcept {
     return T(4) * std::numbers::pi_v<T> * light.intensity;
 }
 
 /// Samples the light for a shadow ray from a point.
-/// \return I / distance^2 with the density 0; nothing at the light itself.
+/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
+///         Nothing if the lit point is the light itself.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -47,7 +48,7 @@ sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                                 [&](const Vec3T<T>&) { return light.intensity; });
 }
 
-/// The origin of its photons.
+/// The point from which the light emits photons: its position.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const PointLightT<T>& light, const Vec2T<T>&,
                                       T) noexcept {
@@ -61,7 +62,7 @@ template <std::floating_point T>
     return sample_uniform_sphere(u);
 }
 
-/// The density of sample_emission(): 1 / (4 pi) per steradian.
+/// The density of sample_emission(): 1/(4 pi) per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_emission(const PointLightT<T>&, const Vec3T<T>&,
                              const Vec3T<T>& wo) noexcept {

@@ -11,24 +11,24 @@ namespace ljus {
 /// \{
 
 /// A light without extent that shines into a cone. Its intensity is constant up to an
-/// inner angle, and then falls linearly in the cosine to 0 at an outer angle.
+/// inner angle. From there to an outer angle it falls to 0, linearly in the cosine.
 template <std::floating_point T>
 struct SpotLightT {
-    using Scalar = T;             ///< The precision.
+    using Scalar = T;             ///< The precision of its numbers.
     Vec3T<T> position{T(0)};      ///< In scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
-    T inner_degrees = T(20);      ///< Half angle of the constant part.
-    T outer_degrees = T(30);      ///< Half angle of the cone, from 0.001 to 180.
+    T inner_degrees = T(20);      ///< Angle to the axis: end of the constant part.
+    T outer_degrees = T(30);      ///< Angle to the axis: end of the cone; 0.001 to 180.
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 
 /// A spot light as its scene stores it.
 template <std::floating_point T>
 struct SpotInSceneT {
-    using Scalar = T;         ///< The precision.
+    using Scalar = T;         ///< The precision of its numbers.
     Vec3T<T> position{T(0)};  ///< In scene units.
-    Vec3T<T> direction{T(0)}; ///< Unit; axis of the cone.
+    Vec3T<T> direction{T(0)}; ///< Axis of the cone; unit vector.
     RgbT<T> intensity{T(0)};  ///< W/sr within the inner cone.
     T inner = T(0);           ///< 1 - cos of the inner angle.
     T outer = T(0);           ///< 1 - cos of the outer angle.
@@ -37,14 +37,14 @@ struct SpotInSceneT {
 /// \name A spot light
 /// \{
 
-/// Refuses an invalid light.
-/// \throws std::invalid_argument  if a vector is not finite, the direction 0, the
-///         intensity negative, or an angle out of range.
+/// Checks a spot light.
+/// \throws std::invalid_argument  if a member is not finite, the direction is 0, the
+///         intensity is negative, or an angle is out of range.
 template <std::floating_point T>
 void check(const SpotLightT<T>& light) {
     require_finite("spot light.position", light.position);
     require_radiance("spot light.intensity", light.intensity);
-    // In narrower cones rounding decides which directions there are.
+    // A narrower cone would contain only a few directions in float.
     require(light.outer_degrees >= T(0.001) && light.outer_degrees <= T(180),
             "spot light.outer_degrees", light.outer_degrees, "within [0.001, 180]");
     require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
@@ -53,11 +53,11 @@ void check(const SpotLightT<T>& light) {
     (void)detail::unit_along("spot light.direction", light.direction);
 }
 
-/// Prepares a checked spot light for its scene: normalises its direction and computes
-/// 1 - cos of its angles.
+/// Prepares a spot light for its scene: normalises the direction and computes 1 - cos
+/// of both angles. The light must have passed check().
 template <std::floating_point T>
 [[nodiscard]] SpotInSceneT<T> in_scene(const SpotLightT<T>& light, const SphereT<T>&) {
-    const auto one_minus_cos = [](T degrees) { // by the half angle: accurate
+    const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
         const T sine = std::sin(degrees * (std::numbers::pi_v<T> / T(360)));
         return T(2) * sine * sine;
     };
@@ -68,9 +68,8 @@ template <std::floating_point T>
             .outer = one_minus_cos(light.outer_degrees)};
 }
 
-/// The flux: \f$ \pi I (w_i + w_o) \f$, in W, with w = 1 - cos. It is \f$ 2\pi I \f$
-/// times the area below a curve that is 1 up to the inner w and falls to 0 at the outer
-/// one.
+/// The emitted flux in W: \f$ \pi I (w_i + w_o) \f$, where I is the intensity, and w_i
+/// and w_o are 1 - cos of the inner and the outer angle.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const SpotInSceneT<T>& light) noexcept {
     return std::numbers::pi_v<T> * (light.inner + light.outer) * light.intensity;
@@ -78,24 +77,25 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The fall-off: the factor of the intensity in a direction.
-/// \return 1 within the inner cone, 0 outside the outer one.
+/// The factor of the intensity in a direction.
+/// \return 1 within the inner cone, 0 outside the outer cone, and between them a number
+///         that is linear in the cosine.
 template <std::floating_point T>
 [[nodiscard]] T fall_off(const SpotInSceneT<T>& light, const Vec3T<T>& wo) noexcept {
-    // 1 - cos as |a - b|^2 / 2, which is accurate for narrow cones.
+    // 1 - cos of the angle of two unit vectors is |a - b|^2 / 2, also for small angles.
     const Vec3T<T> apart = wo - light.direction;
     const T w = glm::dot(apart, apart) / T(2);
     if (w <= light.inner) return T(1);
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
 
-/// Samples 1 - cos of a photon's angle to the axis, with the density of the intensity.
-/// \param u      In [0, 1).
-/// \return Within [0, outer].
+/// Samples a photon's angle to the axis, in proportion to the flux.
+/// \param u  In [0, 1).
+/// \return 1 - cos of the angle, within [0, light.outer].
 // [sample_spot]
 template <std::floating_point T>
 [[nodiscard]] T sample_spot(const SpotInSceneT<T>& light, T u) noexcept {
-    const T both = light.inner + light.outer; // twice the area below the curve
+    const T both = light.inner + light.outer; // twice the integral of fall_off()
     if (u * both < T(2) * light.inner) return u * both / T(2);
     const T beyond = (T(1) - u) * both * (light.outer - light.inner);
     return light.outer - std::sqrt(beyond);
@@ -105,7 +105,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Samples the light for a shadow ray from a point.
-/// \return Intensity / distance^2 with the density 0; nothing outside the cone.
+/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
+///         Nothing outside the cone.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -115,14 +116,14 @@ sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>&
     });
 }
 
-/// The origin of its photons.
+/// The point from which the light emits photons: its position.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const SpotInSceneT<T>& light, const Vec2T<T>&,
                                       T) noexcept {
     return light.position;
 }
 
-/// Samples the unit direction of a photon, with the density of the intensity.
+/// Samples the unit direction of a photon, in proportion to the intensity.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
                                        const Vec2T<T>& u) noexcept {
@@ -131,7 +132,7 @@ template <std::floating_point T>
     return to_world(frame_around(light.direction), local);
 }
 
-/// The density of sample_emission(): intensity over flux, per steradian.
+/// The density of sample_emission(), per steradian: intensity over emitted flux.
 template <std::floating_point T>
 [[nodiscard]] T pdf_emission(const SpotInSceneT<T>& light, const Vec3T<T>&,
                              const Vec3T<T>& wo) noexcept {
@@ -139,7 +140,7 @@ template <std::floating_point T>
            (light.inner + light.outer);
 }
 
-/// The cone into which it shines.
+/// The cone into which the light shines.
 template <std::floating_point T>
 [[nodiscard]] detail::ConeT<T> emission_cone(const SpotInSceneT<T>& light,
                                              const Vec3T<T>&) noexcept {

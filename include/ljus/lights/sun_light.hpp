@@ -10,11 +10,11 @@ namespace ljus {
 /// \addtogroup light
 /// \{
 
-/// Light from a single direction, as from a distant sun. Its flux is what falls into
-/// the sphere around all shapes of its scene.
+/// Light from a single direction, as from a distant sun. Its flux is the light that
+/// falls into the sphere around all shapes of the scene.
 template <std::floating_point T>
 struct SunLightT {
-    using Scalar = T;             ///< The precision.
+    using Scalar = T;             ///< The precision of its numbers.
     Vec3T<T> direction{0, -1, 0}; ///< Direction of travel; any length but 0.
     RgbT<T> irradiance{T(1)};     ///< W/m^2 on a perpendicular surface.
 };
@@ -23,7 +23,7 @@ using SunLight = SunLightT<float>; ///< SunLightT in float.
 /// A sun as its scene stores it.
 template <std::floating_point T>
 struct SunInSceneT {
-    using Scalar = T;         ///< The precision.
+    using Scalar = T;         ///< The precision of its numbers.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
     RgbT<T> irradiance{T(0)}; ///< W/m^2 on a perpendicular surface.
     SphereT<T> around{};      ///< The sphere around the scene.
@@ -32,16 +32,16 @@ struct SunInSceneT {
 /// \name A sun
 /// \{
 
-/// Refuses an invalid light.
-/// \throws std::invalid_argument  if the direction is 0 or not finite, or the
-///         irradiance negative or not finite.
+/// Checks a sun.
+/// \throws std::invalid_argument  if the direction is 0 or not finite, or if the
+///         irradiance is negative or not finite.
 template <std::floating_point T>
 void check(const SunLightT<T>& light) {
     require_radiance("sun light.irradiance", light.irradiance);
     (void)detail::unit_along("sun light.direction", light.direction);
 }
 
-/// Prepares a checked sun for its scene.
+/// Prepares a sun for its scene. The sun must have passed check().
 template <std::floating_point T>
 [[nodiscard]] SunInSceneT<T> in_scene(const SunLightT<T>& light,
                                       const SphereT<T>& around) {
@@ -50,17 +50,18 @@ template <std::floating_point T>
             .around = around};
 }
 
-/// The flux into the sphere around the scene: E pi R^2, in W.
+/// The flux into the sphere around the scene, in W: the irradiance times the area of
+/// the sphere's cross section.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const SunInSceneT<T>& light) noexcept {
     return detail::disc_area(light.around.radius) * light.irradiance;
 }
 
-/// Samples the light for a shadow ray, which ends on the plane outside the scene where
-/// photons start.
+/// Samples the light for a shadow ray. The ray ends outside the scene, on the plane
+/// where photons start.
 /// \param light  The light.
 /// \param from   The lit point, within the sphere around the scene.
-/// \return The irradiance with the density 0.
+/// \return The sample. Its weight is the irradiance, its pdf 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -73,7 +74,7 @@ sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                            .weight = light.irradiance};
 }
 
-/// The direction and the irradiance of its photons, which are constant.
+/// The direction and the irradiance of the sun's photons. Both are constant.
 template <std::floating_point T>
 [[nodiscard]] ArrivalT<T> sample_arrival(const SunInSceneT<T>& light,
                                          const Vec2T<T>&) noexcept {

@@ -11,31 +11,34 @@
 namespace ljus {
 
 /// \defgroup compensated_glossy Energy-preserving gloss
-/// \brief Section 3.2.4, rough mirrors: light that a facet sends to others comes out.
+/// \brief Section 3.2.4, rough mirrors: facets reflect light to each other until it
+/// leaves the surface.
 /// \{
 
-/// A rough mirror with a second lobe that returns the lost light, see
-/// \ref multiple_scattering. It is made by compensated_glossy(). White facets return
-/// 0.9996 to 1.00001 of a constant sky, at any roughness and angle; coloured ones
-/// become more saturated, as after several reflections.
+/// A rough mirror with a second lobe for the light that meets several facets, see
+/// \ref multiple_scattering. Programs make it by compensated_glossy(). White facets
+/// reflect 0.9996 to 1.00001 of the light of a uniform sky, at any roughness and angle.
+/// With coloured facets, light that meets several of them is tinted several times.
 /// \tparam Facet  As for GlossyT.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
     using Scalar = T;              ///< The precision of its numbers.
-    GlossyT<T, Facet> first{};     ///< The lobe of one reflection.
-    detail::EnergyLossT<T> loss{}; ///< Its loss, from bake_energy_loss().
+    GlossyT<T, Facet> first{};     ///< The lobe of light that meets one facet.
+    detail::EnergyLossT<T> loss{}; ///< The loss of `first`, by bake_energy_loss().
     RgbT<T> mean{T(0)}; ///< Mean reflectance of a facet, from mean_reflectance().
 };
-using CompensatedGlossy = CompensatedGlossyT<float>; ///< With a colour, in float.
-using FullRoughMetal =
-    CompensatedGlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
+/// CompensatedGlossyT in float, with a colour as the reflectance.
+using CompensatedGlossy = CompensatedGlossyT<float>;
+/// CompensatedGlossyT in float, with the complex index of a metal as the reflectance.
+using FullRoughMetal = CompensatedGlossyT<float, ConductorIndexT<float>>;
 
 namespace detail {
 
-/// The mean of facet_reflectance() over the angles, \f$ 2 \int F(\mu)\,\mu\,d\mu \f$.
+/// The mean of the reflectance F of a facet over all angles,
+/// \f$ 2 \int_0^1 F(\mu)\,\mu\,d\mu \f$, where mu is the cosine.
 template <std::floating_point T, typename Facet>
 [[nodiscard]] RgbT<T> mean_reflectance(const Facet& facet) noexcept {
-    constexpr int steps = 256; // uniform in mu^2, so that all have the same weight
+    constexpr int steps = 256; // equal steps of mu^2 have equal weights
     RgbT<T> sum{T(0)};
     for (int i = 0; i < steps; ++i)
         sum += facet_reflectance(facet, std::sqrt((T(i) + T(0.5)) / T(steps)));
@@ -44,12 +47,12 @@ template <std::floating_point T, typename Facet>
 
 } // namespace detail
 
-/// Adds multiple scattering to a rough mirror, with a table that is there already.
+/// Adds multiple scattering to a rough mirror, by a table that exists already.
 /// \param first  The rough mirror.
-/// \param loss   From bake_energy_loss() or another material, for the same roughness.
+/// \param loss   The table, from bake_energy_loss() or from another material of the
+///               same roughness. It is checked when the material is added to a scene.
 /// \return The material.
-/// \throws std::invalid_argument as check(first); adding the material to a scene checks
-///         the table.
+/// \throws std::invalid_argument  as check(first).
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F>
 compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& loss) {
@@ -60,9 +63,9 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
 }
 
 /// Adds multiple scattering to a rough mirror.
-/// \return The material; with roughness 0 the same mirror.
-/// \throws std::invalid_argument as check(first).
-/// \cost bake_energy_loss(), once.
+/// \return The material. With roughness 0 it scatters like the mirror itself.
+/// \throws std::invalid_argument  as check(first).
+/// \cost bake_energy_loss(): about 50 ms.
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
@@ -70,13 +73,13 @@ template <std::floating_point T, typename F>
         first, detail::bake_energy_loss(first.roughness * first.roughness));
 }
 
-/// The lobes of this material: those of `first`.
+/// The lobes of this material: those of the rough mirror.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const CompensatedGlossyT<T, F>& gloss) noexcept {
     return lobes(gloss.first);
 }
 
-/// The BRDF: one reflection plus multiple scattering.
+/// The BRDF: the sum of the lobes of one reflection and of multiple scattering.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \cost evaluate() of GlossyT, and lost_at() twice.
 /// \cite kulla2017
@@ -96,7 +99,8 @@ template <std::floating_point T, typename F>
 
 namespace detail {
 
-/// The probability of sampling the first reflection: its fraction of the light.
+/// The probability with which sample() chooses the lobe of one reflection: that lobe's
+/// part of the reflected light.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
 [[nodiscard]] T first_probability(const CompensatedGlossyT<T, F>& gloss,
@@ -124,9 +128,10 @@ template <std::floating_point T, typename F>
            (T(1) - chance) * detail::pdf_lost(gloss.loss, std::abs(wi.z));
 }
 
-/// Samples the mirror direction about a visible facet, or a direction of the second
-/// lobe.
-/// \return Also nothing if the direction points into the surface.
+/// Samples the lobe of one reflection as GlossyT does, or the lobe of multiple
+/// scattering. u.z chooses the lobe.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
+///         into the surface.
 /// \cost Up to twice sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -153,7 +158,8 @@ sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>
     return diffuse_sample(wi, f * (std::abs(wi.z) / density), density);
 }
 
-/// Requires a valid `first` and the table of its roughness.
+/// Requires a valid rough mirror `first`, a mean reflectance within [0, 1], and a table
+/// `loss` that was made for the roughness of `first`.
 template <std::floating_point T, typename F>
 void check(const CompensatedGlossyT<T, F>& gloss) {
     check(gloss.first);

@@ -8,19 +8,19 @@
 namespace ljus {
 
 /// \defgroup cut_out Cut-outs
-/// \brief A leaf is a square with holes. Chapter: \ref ch_textures.
+/// \brief Materials with holes, for example a leaf on a square. Chapter:
+/// \ref ch_textures.
 ///
-/// As in \cite pharr2023, the holes belong to the search for the nearest hit: a hit in
-/// a hole counts for no ray and for no photon. A scene that lists no such material
-/// compiles nothing of this.
+/// The search for the nearest hit skips a hit in a hole, for rays and photons alike
+/// \cite pharr2023.
 /// \{
 
-/// The holes of a material, in place of a texture of Textured.
+/// The holes of a CutOut material, given by a texture.
 template <typename Texture>
 struct Holes {
-    static constexpr bool uses_uv = UsesUv<Texture>; ///< As the texture declares it.
-    Texture mask{}; ///< Its red channel is the alpha: 1 is solid, see load_image().
-    double cutoff = 0.5; ///< A point is open where the alpha is below it; at least 0.
+    static constexpr bool uses_uv = UsesUv<Texture>; ///< True if the mask uses uv.
+    Texture mask{};      ///< The red channel is the opacity; see load_image().
+    double cutoff = 0.5; ///< Opacity below which a point is in a hole; at least 0.
 };
 
 /// A material with holes. Its base must be opaque and may be textured.
@@ -36,7 +36,7 @@ inline constexpr bool is_holes<Holes<Texture>> = true;
 
 } // namespace detail
 
-/// Whether a point lies in a hole of the material, or of its base.
+/// Whether a point lies in a hole of the material or of its base.
 /// \cost color_at() of the mask.
 template <typename Base, typename Texture, std::floating_point T>
 requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
@@ -44,8 +44,8 @@ requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
                                const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     static_assert(
         !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
-        "The body of a transparent material cannot be cut out: a path would "
-        "get into it without crossing its surface.");
+        "A material with holes must be opaque: a path would get into a transparent "
+        "body without crossing its surface.");
     if constexpr (CutOutMaterial<Base>)
         if (is_open(cut.base, position, uv)) return true;
     if constexpr (detail::is_holes<Texture>)

@@ -15,15 +15,16 @@ namespace ljus {
 /// \addtogroup dispersion
 /// \{
 
-/// What an index of refraction depends on: `refractive_index(law, nm)`, as for
-/// SellmeierT and CauchyT.
+/// A law that gives the index of refraction at a wavelength in nanometres, by
+/// `refractive_index(law, nm)`. SellmeierT and CauchyT are such laws.
 template <typename Law, typename T>
 concept DispersionLaw = requires(const Law& law, T nm) {
     { refractive_index(law, nm) } -> std::same_as<T>;
 };
 
-/// The smooth boundary of a transparent body that disperses light; GlassT at any one
-/// wavelength \cite musgrave1989. Outside is z > 0 and has index 1.
+/// The smooth boundary between air and a transparent body that disperses light
+/// \cite musgrave1989. At any one wavelength it is a GlassT. The side z > 0 is air,
+/// with index 1.
 ///
 ///     scene.add(DispersiveGlass{.law = sf10<float>});
 template <std::floating_point T, DispersionLaw<T> Law = SellmeierT<T>>
@@ -31,15 +32,16 @@ struct DispersiveGlassT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
     Law law{};                                  ///< The index at each wavelength.
-    RgbT<T> absorption{T(0)};                   ///< Inside, per scene unit, >= 0.
+    /// Absorption coefficient inside, per scene unit; at least 0.
+    RgbT<T> absorption{T(0)};
 };
-/// DispersiveGlassT in float; by default without any resonance, an index of 1.
+/// DispersiveGlassT in float. The default law gives an index of 1 at every wavelength.
 using DispersiveGlass = DispersiveGlassT<float>;
 
-/// The glass at one wavelength. Renderers and photons call this function for the
-/// wavelength of their path.
+/// The glass at one wavelength. Renderers call this function with the wavelength of a
+/// path, and the photon pass with that of a photon.
 /// \param glass  The glass.
-/// \param nm     In [360, 830].
+/// \param nm     Wavelength in nm, in [360, 830].
 // [at_wavelength]
 template <std::floating_point T, typename Law>
 [[nodiscard]] GlassT<T> at_wavelength(const DispersiveGlassT<T, Law>& glass,
@@ -48,7 +50,7 @@ template <std::floating_point T, typename Law>
 }
 // [at_wavelength]
 
-/// A sample at the d line, as for GlassT.
+/// Samples the glass at the d line, a wavelength of 587.6 nm, as for GlassT.
 template <std::floating_point T, typename Law>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -56,7 +58,7 @@ sample(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo, const Vec3T<T>
     return sample(at_wavelength(glass, line_d<T>), wo, u, transport, which);
 }
 
-/// Both branches at the d line, as for GlassT.
+/// The reflected and the refracted sample at the d line, 587.6 nm, as for GlassT.
 template <std::floating_point T, typename Law>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 split(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo,
@@ -64,7 +66,7 @@ split(const DispersiveGlassT<T, Law>& glass, const Vec3T<T>& wo,
     return split(at_wavelength(glass, line_d<T>), wo, transport);
 }
 
-/// The index of refraction inside, at the d line.
+/// The index of refraction inside at the d line, 587.6 nm.
 template <std::floating_point T, typename Law>
 [[nodiscard]] T refractive_index(const DispersiveGlassT<T, Law>& glass) noexcept {
     return refractive_index(glass.law, line_d<T>);
@@ -77,8 +79,8 @@ absorption(const DispersiveGlassT<T, Law>& glass) noexcept {
     return glass.absorption;
 }
 
-/// Requires a valid index at all visible wavelengths, and a finite absorption of at
-/// least 0.
+/// Requires a valid index at every fifth nanometre of the visible spectrum, and a
+/// finite absorption of at least 0.
 template <std::floating_point T, typename Law>
 void check(const DispersiveGlassT<T, Law>& glass) {
     const auto [first, last] = detail::visible<T>;

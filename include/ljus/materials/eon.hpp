@@ -13,11 +13,12 @@
 namespace ljus {
 
 /// \defgroup eon Energy-preserving Oren-Nayar
-/// \brief Section 3.2.1, 31 years later: \cite eon2025.
+/// \brief Section 3.2.1: EON, a model that conserves energy \cite eon2025.
 ///
-/// Fujii's second model loses the light that facets send to each other. The loss has a
-/// closed form, and EON returns it by \ref multiple_scattering. A white surface returns
-/// exactly all light, at any roughness.
+/// Fujii's second model loses the light that facets send to each other. The lost
+/// fraction has a closed form. EON adds this light to the BRDF, see
+/// \ref multiple_scattering. A white surface therefore reflects all light, at any
+/// roughness.
 /// \{
 
 /// A two-sided matt surface that conserves energy.
@@ -26,37 +27,40 @@ template <std::floating_point T>
 struct EonT {
     using Scalar = T;       ///< The precision of its numbers.
     RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
-    T roughness = T(0.5);   ///< In [0, 1]; 0 is Lambert.
+    T roughness = T(0.5);   ///< In [0, 1]; 0 is a Lambertian surface.
 };
 using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The loss of Fujii's second model at an angle, over A r:
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
-/// \return At least 0, at most 1/2 - 2/(3 pi).
+/// The fraction of light that Fujii's second model loses at an angle, divided by A r:
+/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here mu is the cosine of the angle,
+/// E the fraction of light that a white surface reflects, r the roughness, k_1 the
+/// constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
+/// \return At least 0, at most k_1.
 /// \cite eon2025
 // [eon loss]
 template <std::floating_point T>
 [[nodiscard]] T eon_loss(T sine, T cosine) noexcept {
     const T s = sine, mu = cosine;
-    // (1 - s^3)/mu as mu (1 + s + s^2)/(1 + s), which avoids 0/0 at grazing angles.
+    // (1 - s^3)/mu is mu (1 + s + s^2)/(1 + s), which avoids 0/0 at grazing angles.
     const T steep = mu * (T(1) + s + s * s) / (T(1) + s) - T(1);
     const T g = s * (std::atan2(s, mu) - s * mu) + T(2) / T(3) * s * steep;
     return std::max(T(0), fon_constant<T> - g * std::numbers::inv_pi_v<T>);
 }
 // [eon loss]
 
-/// 1 minus the mean of E, over A r.
+/// The cosine-weighted mean of eon_loss() over the hemisphere.
 template <std::floating_point T>
 inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// Pi times the BRDF: \ref multiple_scattering with Fujii's ratio as f_1 and its albedo
-/// as E. The common factor A r of all losses is cancelled, so that a roughness of 0
-/// needs no special case.
-/// \return At least 0; for directions on the same side.
+/// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
+/// \ref multiple_scattering. The factor A r of the losses is cancelled, so that a
+/// roughness of 0 needs no special case.
+/// \param wo, wi   Unit vectors on the same side.
+/// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.
 // [eon]
 template <std::floating_point T>
@@ -75,8 +79,9 @@ template <std::floating_point T>
 
 /// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
 /// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
-/// directions to a density close to f cos, in a frame whose x axis is the azimuth of
-/// wo. The four numbers are the fit of \cite eon2025, listing 2.
+/// directions to directions whose density is nearly proportional to f times the cosine.
+/// The x axis points along the azimuth of wo. The four numbers are a fit, listing 2 of
+/// \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
     T a;            ///< First row of M.
@@ -84,7 +89,7 @@ struct EonLobeT {
     T c;            ///< Second row of M.
     T d;            ///< Third row of M, at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
-    T uniform;      ///< The probability of a uniform direction instead of the lobe's.
+    T uniform;      ///< The probability of a uniform direction instead of the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 
@@ -100,7 +105,7 @@ template <std::floating_point T>
     lobe.c = T(1) + r * (T(0.20013) + mu * (T(-0.506373) + T(0.261777) * mu));
     lobe.d = r * (T(0.540852) + mu * (T(-1.01625) + T(0.475392) * mu)) /
              (T(-1.0743) + mu * (T(0.0725628) + mu));
-    lobe.d = std::min(lobe.d, T(0)); // the fit is slightly positive at the pole
+    lobe.d = std::min(lobe.d, T(0)); // the fit is slightly above 0 at normal incidence
     lobe.kept = (T(1) + T(1) / std::sqrt(lobe.d * lobe.d + T(1))) / T(2);
     lobe.uniform =
         std::pow(r, T(0.1)) *
@@ -111,27 +116,29 @@ template <std::floating_point T>
     return lobe;
 }
 
-/// The density of a direction above the horizon: the lobe and the uniform part.
+/// The density of sample_eon_lobe() for a direction above the horizon.
 /// \return Per steradian, above 0.
 template <std::floating_point T>
 [[nodiscard]] T pdf_eon_lobe(const EonLobeT<T>& lobe, const Vec3T<T>& wi) noexcept {
     const T x = lobe.along.x * wi.x + lobe.along.y * wi.y;
     const T y = lobe.along.x * wi.y - lobe.along.y * wi.x;
-    // The inverse of M, times its determinant.
+    // v is the inverse of M times wi, times the determinant of M.
     const T minor = lobe.a - lobe.b * lobe.d;
     const T determinant = lobe.c * minor;
     const Vec3T<T> v{lobe.c * (x - lobe.b * wi.z), minor * y,
                      lobe.c * (lobe.a * wi.z - lobe.d * x)};
     const T square = glm::dot(v, v);
-    const T jacobian = determinant / square; // squared below: it scales solid angles
+    // The cosine lobe at v, times the change of solid angle, determinant^2/|v|^3.
+    const T jacobian = determinant / square;
     const T bent = std::max(T(0), v.z) * jacobian * jacobian *
                    std::numbers::inv_pi_v<T> / lobe.kept;
     const T even = std::numbers::inv_pi_v<T> / T(2);
     return lobe.uniform * even + (T(1) - lobe.uniform) * bent;
 }
 
-/// Samples the density pdf_eon_lobe(); u.z chooses the lobe or a uniform direction.
-/// \return Unit vector; rounding may leave it on the horizon.
+/// Samples a direction with the density pdf_eon_lobe(). u.z chooses between the lobe
+/// and a uniform direction.
+/// \return A unit vector above the horizon or, by rounding, on the horizon.
 /// \cite eon2025
 // [eon lobe sample]
 template <std::floating_point T>
@@ -139,8 +146,9 @@ template <std::floating_point T>
                                        const Vec3T<T>& u) noexcept {
     if (u.z < lobe.uniform) return sample_uniform_hemisphere(Vec2T<T>{u.x, u.y});
 
-    // The directions that M maps above the horizon are a half disc and half an ellipse
-    // of the unit disc: shrink each chord along x to them.
+    // Seen from above, directions fill the unit disc. Those that M maps above the
+    // horizon fill half of the disc and half of an ellipse. Each chord along x is
+    // shrunk to this region.
     const Vec3T<T> h = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     const T half_chord = std::sqrt(std::max(T(0), (T(1) - h.y) * (T(1) + h.y)));
     const T x = lobe.kept * h.x - (T(1) - lobe.kept) * half_chord;
@@ -154,7 +162,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The lobes of this material: a diffuse one, even if it is black.
+/// The lobes of this material: Lobes::diffuse, even for a black surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const EonT<T>&) noexcept {
     return Lobes::diffuse;
@@ -179,7 +187,8 @@ template <std::floating_point T>
                                 Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
-/// Samples a density close to f cos; u.z chooses the lobe or a uniform direction.
+/// Samples a direction with a density nearly proportional to f times the cosine to the
+/// normal.
 /// \cost About three times that of a cosine-weighted direction.
 /// \cite eon2025
 template <std::floating_point T>

@@ -18,34 +18,36 @@ namespace ljus {
 /// \defgroup glass Glass
 /// \brief Section 3.2.5: surfaces that reflect and refract.
 /// \erratum{The report's program reflects the same fraction at every angle, multiplies
-/// refracted light by a cosine, reflects nothing inside, and returns up to 1.6 times
-/// the light. Here light is split once, into F and 1 - F.}
+/// refracted light by a cosine, reflects nothing inside the glass, and returns up to
+/// 1.6 times the incident light. This library reflects the fraction F of the light,
+/// Fresnel's reflectance, and refracts the rest.}
 /// \{
 
-/// The smooth boundary of a transparent body: outside is z > 0 and has index 1.
+/// The smooth boundary between a transparent body and air. The side z > 0 is air, with
+/// index 1.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct GlassT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
     T index = T(1.5);                           ///< Index of refraction inside.
-    RgbT<T> absorption{T(0)};                   ///< Inside, per scene unit, >= 0.
-    FresnelModel fresnel = FresnelModel::exact; ///< Exact, or Schlick's twin.
+    /// Absorption coefficient inside, per scene unit; at least 0.
+    RgbT<T> absorption{T(0)};
+    FresnelModel fresnel = FresnelModel::exact; ///< Exact or Schlick's approximation.
 };
 using Glass = GlassT<float>; ///< GlassT in float.
 
 namespace detail {
 
-/// The split of light at the boundary: the reflected fraction and the refracted
-/// direction.
+/// How a boundary divides light between reflection and refraction.
 template <std::floating_point T>
 struct GlassBoundaryT {
-    std::optional<Vec3T<T>> refracted{}; ///< Nothing under total internal reflection.
-    T reflectance = T(1);                ///< F, in [0, 1].
-    T eta_scale = T(1);                  ///< Scale of refracted radiance.
+    std::optional<Vec3T<T>> refracted{}; ///< Direction, if there is refraction.
+    T reflectance = T(1);                ///< Fresnel's reflectance F, in [0, 1].
+    T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
 };
 
-/// The split of light that leaves the boundary along `wo`; inside is z < 0.
+/// Divides the light for the outgoing direction `wo`; z < 0 is inside the glass.
 /// \cost Three square roots, three divisions; F is not evaluated in total reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -64,9 +66,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples reflection with probability F, refraction with 1 - F. Both have weight 1,
-/// and radiance from index n_t is then scaled by (n_i/n_t)^2.
-/// \cost That of boundary().
+/// Chooses reflection with probability F, Fresnel's reflectance, and otherwise
+/// refraction. The weight is 1. For refracted radiance it is multiplied by the factor
+/// BsdfSampleT::eta_scale.
+/// \cost Three square roots and three divisions.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -80,9 +83,10 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
 
-/// Both branches with their weights, for a path that splits. The noise of the random
-/// choice, for instance in a lamp's reflection in a ball, vanishes.
-/// \return The reflected and the refracted sample; nothing if there is only one.
+/// Returns both directions with their weights, for a path that splits in two. The noise
+/// of a random choice between them vanishes.
+/// \return The reflected and the refracted sample; nothing in total internal
+///         reflection.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 split(const GlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {
@@ -116,11 +120,11 @@ void check(const GlassT<T>& glass) {
 /// \}
 
 /// \defgroup thin_glass Thin glass
-/// \brief Section 3.2.5, for a window: two boundaries so close that they are one.
+/// \brief Section 3.2.5, for a window: both boundaries of a pane as one surface.
 ///
-/// A pane is a *thin sheet*, like a soap film: transmitted light goes straight on,
-/// which is visibility, not scattering. Shadow rays and photons pass through it,
-/// tinted; sample() returns the reflection only. See \ref next_vertex.
+/// A pane is a *thin sheet*, like a soap film. Shadow rays and photons pass straight
+/// through a thin sheet and are tinted, see \ref next_vertex. The sheet scatters only
+/// the light that it reflects, and sample() returns this reflection.
 /// \{
 
 /// A pane with air on both sides.
@@ -130,8 +134,9 @@ struct ThinGlassT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
     T index = T(1.5);                           ///< Index of refraction of the glass.
-    RgbT<T> tint{T(1)}; ///< Transmittance of the glass at normal incidence, without its
-                        ///< boundaries; in [0, 1].
+    /// Transmittance of the glass between its boundaries, for one crossing at normal
+    /// incidence; in [0, 1].
+    RgbT<T> tint{T(1)};
 };
 using ThinGlass = ThinGlassT<float>; ///< ThinGlassT in float.
 
@@ -143,18 +148,19 @@ struct PaneFractionsT {
     RgbT<T> transmitted; ///< Fraction of the incident light; the rest is absorbed.
 };
 
-/// The sum of all reflections within a pane. With R of one boundary and the
-/// transmittance a of one crossing of the glass,
+/// The reflectance and the transmittance of a pane, with all reflections inside it.
+/// Each boundary has the reflectance R. The glass between the boundaries has the
+/// transmittance a for one crossing. Then the pane has
 ///
 /// \f[ T_\infty = (1-R)^2 a \left(1 + R^2 a^2 + R^4 a^4 + \dots\right)
 ///              = \frac{(1-R)^2 a}{1 - R^2 a^2}, \qquad
 ///     R_\infty = R + R\,a\,T_\infty \f]
 ///
-/// with a = tint^(1/cos) for the angle within the glass. The reflections are added
-/// without interference: the pane is thicker than the light's coherence length.
-/// \param cos_theta  Cosine between ray and normal, in [0, 1].
-/// \return Reflectance and transmittance; without tint they add up to 1.
-/// \cost fresnel(), one more square root, three powers if there is a tint.
+/// with a = tint^(1/c), where c is the cosine of the angle inside the glass. There is
+/// no interference, because a pane is thicker than the coherence length of light.
+/// \param cos_theta  Cosine between ray and normal outside, in [0, 1].
+/// \return Reflectance and transmittance. Without a tint their sum is 1.
+/// \cost fresnel() and one square root; three powers if there is a tint.
 // [pane]
 template <std::floating_point T>
 [[nodiscard]] PaneFractionsT<T> pane_fractions(const ThinGlassT<T>& pane,
@@ -189,12 +195,12 @@ template <std::floating_point T>
     return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
 
-/// The mirror direction, with PaneFractionsT::reflected as weight. Transmission is not
-/// sampled.
+/// Returns the mirror direction. Its weight is PaneFractionsT::reflected.
 /// \param pane   The pane.
 /// \param wo     Outgoing direction; unit vector in the surface's frame.
 /// \param which  The lobes to sample.
-/// \return The sample; nothing if `wo` lies on the surface or without Lobes::specular.
+/// \return The sample. Nothing if `wo` is parallel to the surface, or if `which` lacks
+///         Lobes::specular.
 /// \cost pane_fractions().
 /// \report{Section 3.2.5}
 template <std::floating_point T>

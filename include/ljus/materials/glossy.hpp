@@ -20,7 +20,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The reflectance of a facet given by its colour at normal incidence: Schlick's.
+/// The reflectance of a facet by Schlick's approximation, from its colour at normal
+/// incidence.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> facet_reflectance(const RgbT<T>& color, T cos_theta) noexcept {
     return {schlick(color.x, cos_theta), schlick(color.y, cos_theta),
@@ -34,26 +35,30 @@ template <std::floating_point T>
     return fresnel_conductor(cos_theta, index);
 }
 
-/// The smallest roughness besides 0: below it the rounding of a float direction is not
-/// small against alpha.
+/// The smallest roughness that is not 0. For a smaller roughness, the facets would vary
+/// so little that the rounding of a direction in float matters.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
 
 } // namespace detail
 
-/// A two-sided surface of small mirrors. Light that hits a second facet is lost: more
-/// than half of it on a white surface of roughness 1.
-/// \tparam Facet  A colour at normal incidence, or a metal's index.
+/// A two-sided surface whose facets are small mirrors. Light that hits a second facet
+/// is lost. At roughness 1 this is more than half of the light.
+/// \tparam Facet  RgbT, the colour at normal incidence, or ConductorIndexT, the complex
+///                index of a metal.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct GlossyT {
     using Scalar = T;     ///< The precision of its numbers.
     Facet reflectance{};  ///< Reflectance of a facet.
-    T roughness = T(0.3); ///< alpha = roughness^2; 0 (a mirror) or in [0.01, 1].
+    T roughness = T(0.3); ///< Square root of GGX's alpha; 0 or in [0.01, 1].
 };
-using Glossy = GlossyT<float>;                             ///< With a colour, in float.
-using RoughMetal = GlossyT<float, ConductorIndexT<float>>; ///< With a metal, in float.
+/// GlossyT in float, with a colour as the reflectance.
+using Glossy = GlossyT<float>;
+/// GlossyT in float, with the complex index of a metal as the reflectance.
+using RoughMetal = GlossyT<float, ConductorIndexT<float>>;
 
-/// The lobes of this material: a glossy one, or with roughness 0 a specular one.
+/// The lobes of this material: Lobes::glossy or, if the roughness is 0,
+/// Lobes::specular.
 template <std::floating_point T, typename F>
 [[nodiscard]] constexpr Lobes lobes(const GlossyT<T, F>& gloss) noexcept {
     return gloss.roughness > T(0) ? Lobes::glossy : Lobes::specular;
@@ -64,10 +69,11 @@ template <std::floating_point T, typename F>
 /// \f[ f = \frac{F(w_o \cdot h)\, D(h)\, G_2(w_o, w_i)}{4\, w_{o,z}\, w_{i,z}}
 ///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
 ///
-/// with ggx_distribution() and ggx_lambda().
+/// where h is the half vector, F the reflectance of a facet, D ggx_distribution(), G_2
+/// the fraction of facets visible from both directions, and r ggx_lambda().
 /// \return f in 1/sr, without the cosine; 0 for directions on different sides, and at
 ///         grazing angles where f would overflow.
-/// \cost Three square roots, one division per cosine.
+/// \cost Three square roots.
 /// \cite walter2007 \cite heitz2014
 // [glossy]
 template <std::floating_point T, typename F>
@@ -89,9 +95,9 @@ template <std::floating_point T, typename F>
 // [glossy]
 
 /// The density of sample().
-/// \return \f$ G_1 D / 4 w_{o,z} = D / 2 (w_{o,z} + r(w_o)) \f$ per steradian on the
-///         side of `wo`; 0 elsewhere. Its integral is below 1, because directions into
-///         the surface are rejected.
+/// \return D/(2 (wo.z + r(wo))) per steradian on the side of `wo`, with the letters of
+///         evaluate(); 0 elsewhere. The integral is below 1, because sample() rejects
+///         directions that point into the surface.
 /// \cite heitz2018
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -104,9 +110,11 @@ template <std::floating_point T, typename F>
            (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
 
-/// The mirror direction of a facet that is visible from `wo`. The weight is
-/// \f$ F\, G_2 / G_1 \f$, at most F.
-/// \return Also nothing if the direction points into the surface.
+/// Samples a facet that is visible from `wo`, and returns the mirror direction about
+/// its normal. The weight is F, the reflectance of the facet, times the fraction of
+/// light that no other facet blocks.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
+///         into the surface.
 /// \cost One sine, one cosine, eight square roots.
 /// \cite heitz2018
 template <std::floating_point T, typename F>
@@ -123,7 +131,7 @@ sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
     const T alpha = gloss.roughness * gloss.roughness;
     const Vec3T<T> h = detail::sample_visible_normal(alpha, out, Vec2T<T>{u.x, u.y});
     Vec3T<T> in = glm::normalize(reflect(-out, h));
-    if (!(in.z > T(0))) return std::nullopt; // into the surface: lost
+    if (!(in.z > T(0))) return std::nullopt; // a second facet blocks this light
     const T r_out = detail::ggx_lambda(alpha, out);
     const T g2_over_g1 =
         (out.z + r_out) / (r_out + out.z / in.z * detail::ggx_lambda(alpha, in));

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/materials/lambertian.hpp
-/// \brief The matt surface that looks equally bright from all directions.
+/// \brief The Lambertian surface: it is matt and looks equally bright from all
+/// directions.
 
 #include <numbers>
 
@@ -12,8 +13,9 @@ namespace ljus {
 
 /// \defgroup lambertian Lambert
 /// \brief Section 3.2.1: the Lambertian BRDF.
-/// \erratum{The program's "BRDF" is cos(theta) times colour: it lacks 1/pi, and its
-/// cosine, which belongs to the integral, is counted twice.}
+/// \erratum{In the report's program the "BRDF" is cos(theta) times the colour. The
+/// factor 1/pi is missing. The cosine is counted twice, because the integral of
+/// reflected light contains it already.}
 /// \{
 
 /// A two-sided matt surface.
@@ -25,14 +27,14 @@ struct LambertianT {
 };
 using Lambertian = LambertianT<float>; ///< LambertianT in float.
 
-/// The lobes of this material: a diffuse one, even if it is black.
+/// The lobes of this material: Lobes::diffuse, even for a black surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const LambertianT<T>&) noexcept {
     return Lobes::diffuse;
 }
 
-/// The BRDF: f = albedo/pi, so that the integral of f cos over the hemisphere is the
-/// albedo.
+/// The BRDF, f = albedo/pi. The integral of f times the cosine over the hemisphere is
+/// the albedo.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [lambertian]
@@ -45,14 +47,14 @@ template <std::floating_point T>
 }
 // [lambertian]
 
-/// The density of sample(), per steradian: pdf_cosine_lobe().
+/// The density of sample(): that of pdf_cosine_lobe(), per steradian.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const LambertianT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// Samples the density cos/pi: the weight f cos/pdf is then the albedo alone.
+/// Samples a direction by sample_cosine_lobe(). The weight is the albedo.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
 template <std::floating_point T>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/materials/material.hpp
-/// \brief The interface of a material: six functions, and the sample type; the cosine
-/// lobe of matt ones.
+/// \brief The interface of a material, the type of its samples, and cosine-weighted
+/// sampling for matt materials.
 
 #include <array>
 #include <cmath>
@@ -19,35 +19,38 @@ namespace ljus {
 /// \defgroup bsdf Materials
 /// \brief Section 3.2.1: how a surface scatters light.
 ///
-/// A material is a struct with public members and a `Scalar`, and free functions beside
-/// it. It works in a local frame with z along the shading normal, and z > 0 outside.
-/// `wo` (outgoing) and `wi` (incident) are unit vectors that point *away* from the
-/// surface: light comes from `wi` and leaves along `wo`.
+/// A material is a struct with public members and a type `Scalar`. Five free functions
+/// belong to it. Their directions are given in a local frame whose z axis is the
+/// shading normal; z > 0 is outside. `wo` (outgoing) and `wi` (incident) are unit
+/// vectors that point *away* from the surface: light comes from `wi` and leaves along
+/// `wo`.
 ///
-///     Lobes lobes(m);                   // the kinds of lobes that it has
+///     Lobes lobes(m);                   // the kinds of lobes of m
 ///     Rgb   evaluate(m, wo, wi);        // f in 1/sr, no cosine, no delta lobes
 ///     float pdf(m, wo, wi, which);      // density of sample(), per steradian
 ///     std::optional<BsdfSample> sample(m, wo, u, transport, which);
 ///     void  check(m);                   // throws std::invalid_argument
 ///
-/// `u` is a point of [0,1)^3, whose z chooses a lobe, `transport` says whether radiance
-/// or flux is carried, and `which` are the lobes to sample, by default all. sample()
-/// returns nothing if `wo` lies on the surface, without a lobe of `which`, or if the
-/// surface is black. The exception of check() names the wrong member.
+/// `u` is a point of [0,1)^3; its z chooses a lobe. `transport` says whether the path
+/// carries radiance or flux. `which` is the set of lobes to sample, by default all.
+/// sample() returns nothing if `wo` is parallel to the surface, if the material has no
+/// lobe of `which`, or if the surface is black. The exception of check() names the
+/// wrong member.
 ///
-/// A material may have further functions. The table says what each is for and what
-/// happens without it:
+/// A material may have further functions. The table gives the purpose of each, and what
+/// happens without the function:
 ///
 /// \snippet{lineno} ljus/materials/material.hpp material hooks
 ///
-/// The survey prints which of these each material of a scene has. Radiosity alone also
-/// asks for diffuse_albedo(m): a material without it is black there.
+/// The survey prints which of these functions each material of a scene has. Radiosity
+/// also uses diffuse_albedo(m), and treats a material without this function as black.
 /// \{
 
-/// A set of lobes. A *specular* lobe scatters into a single direction (a delta); all
-/// others have an f and a pdf and count as D in Heckbert's notation, even glossy ones.
+/// A set of lobes. A *specular* lobe scatters into a single direction (a delta). All
+/// other lobes, even glossy ones, have an f and a pdf, and count as D in Heckbert's
+/// notation.
 enum class Lobes : std::uint8_t {
-    none = 0,         ///< Nothing.
+    none = 0,         ///< No lobe.
     diffuse = 1,      ///< Scatters into all directions.
     glossy = 2,       ///< A blurred mirror: scatters around one direction.
     specular = 4,     ///< Mirrors and clear boundaries.
@@ -65,15 +68,16 @@ enum class Lobes : std::uint8_t {
     return static_cast<Lobes>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-/// True if a set contains a lobe.
+/// True if a set contains at least one of the given lobes.
 /// \param set   The set.
-/// \param part  One lobe; or several, of which the set must contain at least one.
+/// \param part  The given lobes.
 [[nodiscard]] constexpr bool has(Lobes set, Lobes part) noexcept {
     return (set & part) != Lobes::none;
 }
 
-/// What a path carries. Radiance that enters index n is scaled by n^2, because the same
-/// light fills a narrower cone; the flux of a photon is not scaled \cite veach1997.
+/// The quantity that a path carries. Radiance that enters a body of index n from air is
+/// multiplied by n^2, because refraction narrows the cone of the light. The flux of a
+/// photon does not change \cite veach1997.
 enum class Transport : std::uint8_t {
     radiance, ///< Paths from the camera.
     flux,     ///< Photons.
@@ -83,17 +87,23 @@ enum class Transport : std::uint8_t {
 template <std::floating_point T>
 struct BsdfSampleT {
     Vec3T<T> wi{T(0), T(0), T(1)}; ///< Incident direction; unit vector.
-    RgbT<T> weight{T(0)};  ///< f |cos|/pdf: the factor of the path's throughput.
-    T pdf = T(0);          ///< Per steradian, times the lobe's probability; 0: delta.
-    bool specular = false; ///< True if `wi` belongs to a delta.
-    T eta_scale = T(1);    ///< (n_i/n_t)^2 within the weight; roulette ignores it.
+    RgbT<T> weight{T(0)}; ///< f |cos|/pdf: the factor of the path's throughput.
+    /// Density per steradian, including the probability of the lobe; 0 for a delta.
+    T pdf = T(0);
+    bool specular = false; ///< True if `wi` is sampled from a delta lobe.
+    /// The factor in `weight` that is due to refraction of radiance: (n_o/n_i)^2, with
+    /// the indices n_o on the side of `wo` and n_i on the side of `wi`. It is 1 for
+    /// reflection and for flux. Russian roulette leaves it out of the probability of
+    /// survival.
+    T eta_scale = T(1);
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 
-/// A sample of a delta lobe; its pdf is 0, because the density is infinite.
-/// \param wi       Incident direction.
-/// \param share    The scattered fraction of light, over the lobe's probability.
-/// \param eta_scale  (n_i/n_t)^2 for radiance that crosses a boundary, otherwise 1.
+/// A sample of a delta lobe. Its pdf is set to 0, which marks an infinite density.
+/// \param wi         Incident direction.
+/// \param share      The fraction of light that the lobe scatters, divided by the
+///                   probability of the lobe.
+/// \param eta_scale  See BsdfSampleT::eta_scale.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
@@ -107,7 +117,7 @@ specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) no
 /// A sample of a lobe with a density.
 /// \param wi       Incident direction.
 /// \param weight   f |cos|/pdf.
-/// \param density  Per steradian, times the lobe's probability.
+/// \param density  Per steradian, including the probability of the lobe.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
@@ -115,18 +125,18 @@ diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
 }
 
 /// A material with specular lobes only. It declares
-/// `static constexpr bool only_specular = true`, and then needs no lobes(), evaluate()
-/// and pdf():
+/// `static constexpr bool only_specular = true`. The functions lobes(), evaluate() and
+/// pdf() below then serve for it.
 template <typename M>
 concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
 
-/// The lobes of such a material: specular.
+/// The lobes of an OnlySpecular material: Lobes::specular.
 template <OnlySpecular M>
 [[nodiscard]] constexpr Lobes lobes(const M&) noexcept {
     return Lobes::specular;
 }
 
-/// f is 0 except at the delta.
+/// The BSDF of an OnlySpecular material, without its delta lobes.
 /// \return 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr RgbT<typename M::Scalar>
@@ -135,7 +145,7 @@ evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return RgbT<typename M::Scalar>{0};
 }
 
-/// The density is 0 except at the delta.
+/// The density of sample() of an OnlySpecular material, without its delta lobes.
 /// \return 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr typename M::Scalar
@@ -144,7 +154,7 @@ pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return 0;
 }
 
-/// A material as renderers use it; see the top of this page for the functions.
+/// A material. Its functions are described at the top of this page, \ref bsdf.
 template <typename M>
 concept Material = std::floating_point<typename M::Scalar> &&
     requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
@@ -159,11 +169,12 @@ concept Material = std::floating_point<typename M::Scalar> &&
 };
 
 /// \name A material around another one
-/// It scatters as its base; it needs check() and its own functions only.
+/// A wrapper scatters like its base. Besides check() it needs only the functions that
+/// it adds to the base.
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a
-/// member `base`, which is a material: Nested, Textured.
+/// member `base`, which is a material. Nested and Textured are such wrappers.
 template <typename M>
 concept MaterialWrapper = std::floating_point<typename M::Scalar> &&
     requires(const M& m) {
@@ -203,7 +214,7 @@ sample(const M& m, const Vec3T<T>& wo, const Vec3T<T>& u, Transport transport,
 
 /// \}
 
-/// The default absorption inside: none.
+/// The absorption coefficient inside, for a material that does not provide its own.
 /// \return 0 per scene unit.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
@@ -217,15 +228,16 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
     absorption(m);
 };
 
-/// The material of a transparent body: it provides `refractive_index(m)`, which is 0 if
-/// it is opaque after all. material_at() returns a material with a member `index`.
+/// The material of a transparent body. It provides `refractive_index(m)`, which returns
+/// 0 if m happens to be opaque. Its material_at() returns a material with a member
+/// `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
 };
 
-/// A material whose body touches another one instead of air. At the boundary only the
-/// ratio of the indices counts.
+/// The material of a body that touches another body instead of air: its index becomes
+/// relative to that of the other body.
 /// \param m        The material.
 /// \param outside  Index of refraction of the other body.
 template <Refractive M>
@@ -234,20 +246,22 @@ template <Refractive M>
     return m;
 }
 
-/// A material that differs between wavelengths, like glass that makes a rainbow:
-/// `at_wavelength(m, nm)` returns the material at one wavelength, with colours as it
-/// has them for all light. A path that meets it chooses one wavelength and keeps it;
-/// include ljus/optics/dispersion.hpp for that choice, and see \ref dispersion.
+/// A material whose index depends on the wavelength, like glass that makes a rainbow.
+/// `at_wavelength(m, nm)` returns the material at one wavelength, given in nanometres.
+/// A path that meets such a material chooses one wavelength and keeps it. The choice is
+/// made by ljus/optics/dispersion.hpp; see \ref dispersion.
 template <typename M>
 concept Dispersive = requires(const M& m, typename M::Scalar nm) {
     at_wavelength(m, nm);
 };
 
-/// The material of a body that light enters: it has an index or a medium inside.
+/// The material of a body that light can enter: a Refractive one, or one that provides
+/// absorption().
 template <typename M>
 concept Transparent = Refractive<M> || MayAbsorb<M>;
 
-/// The default priority where transparent bodies overlap; see \ref nested_bodies.
+/// The priority where transparent bodies overlap, for a material that does not provide
+/// its own; see \ref nested_bodies.
 /// \return 0.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
@@ -261,9 +275,9 @@ concept HasPriority = requires(const detail::Own<M>& m) {
     priority(m);
 };
 
-/// Whether a material scatters light through its surface into a lobe with a density: it
-/// is that of a transparent body, and has a glossy lobe. Light from both sides then
-/// counts at a vertex, not only that of the side of `wo`.
+/// Whether a material scatters light through its surface into a lobe with a density, as
+/// rough glass does: it is Refractive and has a glossy lobe. A vertex on such a
+/// material receives light from lamps on both sides of the surface.
 template <typename M>
 [[nodiscard]] constexpr bool scatters_through([[maybe_unused]] const M& m) noexcept {
     if constexpr (Refractive<M>)
@@ -272,7 +286,7 @@ template <typename M>
         return false;
 }
 
-/// The default emitted radiance: none.
+/// The emitted radiance of a material that does not provide its own.
 /// \return 0 W/(m^2 sr).
 template <typename M>
 requires std::floating_point<typename M::Scalar>
@@ -280,20 +294,21 @@ requires std::floating_point<typename M::Scalar>
     return RgbT<typename M::Scalar>{0};
 }
 
-/// A material whose lamp shows a picture: `emission_picture(m)` returns the factors of
-/// the radiance, over the (u, v) of a quad or a disc. It needs
-/// ljus/lights/picture_light.hpp.
+/// The material of a lamp that shows a picture on a quad or a disc.
+/// `emission_picture(m)` returns the picture. Its colour at (u, v) is multiplied by
+/// emission(). Such a lamp needs ljus/lights/picture_light.hpp.
 template <typename M>
 concept ShowsPicture = requires(const M& m) {
     emission_picture(m).pixels;
 };
 
-/// A material at a point: the material itself, or `at_point(m, position, uv)` of one
-/// that varies. A material that uses uv declares `static constexpr bool uses_uv =
-/// true`; for all others uv is not computed.
+/// The material at a point: the result of `at_point(m, position, uv)` if the material
+/// provides that function, otherwise m itself. Renderers compute uv only for a material
+/// that declares `static constexpr bool uses_uv = true`.
 /// \param m         The material; must outlive the result.
 /// \param position  The point.
-/// \param uv        Its coordinates on its shape, from texture_coordinates().
+/// \param uv        The coordinates of the point on the shape, from
+///                  texture_coordinates().
 /// \return A material to sample().
 template <typename M>
 [[nodiscard]] constexpr decltype(auto)
@@ -305,33 +320,36 @@ material_at(const M& m, const Vec3T<typename M::Scalar>& position,
         return (m);
 }
 
-/// A material with holes: `is_open(m, position, uv)` says where. Rays go through a hole
-/// as if nothing were there.
+/// A material with holes: `is_open(m, position, uv)` is true for a point in a hole.
+/// Rays go through a hole as if nothing were there.
 template <typename M>
 concept CutOutMaterial = requires(const M& m, const Vec3T<typename M::Scalar>& position,
                                   const Vec2T<typename M::Scalar>& uv) {
     { is_open(m, position, uv) } -> std::same_as<bool>;
 };
 
-/// A material that turns the shading normal: `normal_at(m, uv)` returns a normal whose
-/// x is along u of the shape and whose z is along the shape's own shading normal.
+/// A material that turns the shading normal. `normal_at(m, uv)` returns the new normal,
+/// of any length. Its x component is along u of the shape, and its z component along
+/// the shading normal of the shape.
 template <typename M>
 concept NormalMapped = requires(const M& m, const Vec2T<typename M::Scalar>& uv) {
     { normal_at(m, uv) } -> std::same_as<Vec3T<typename M::Scalar>>;
 };
 
-/// True if two directions leave the same side of the surface; false on the surface.
+/// True if two directions point to the same side of the surface. False if one of them
+/// is parallel to the surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr bool same_side(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
-    // a.z * b.z > 0 would underflow.
+    // The product of a.z and b.z could underflow.
     return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
 }
 
-/// Whether a material is nearly a mirror: its only lobe with a density is a glossy one,
-/// in which a sampled direction typically has a density above 1 per steradian, which is
-/// 3 times that of a Lambertian surface. A GlossyT is if its roughness is below 0.42, a
-/// RoughGlassT of index 1.5 below 0.85.
-/// \cost None for a material without a glossy lobe; else one sample.
+/// Whether a material scatters almost like a mirror or like clear glass: it has a
+/// glossy lobe and no diffuse lobe, and a typical sample has a density above 1 per
+/// steradian. The highest density of a Lambertian surface is a third of that. A GlossyT
+/// is nearly specular if its roughness is below 0.42, and a RoughGlassT of index 1.5 if
+/// its roughness is below 0.85.
+/// \cost One call of sample() for a material with a glossy lobe.
 template <Material M>
 [[nodiscard]] bool nearly_specular(const M& m) noexcept {
     using T = typename M::Scalar;
@@ -388,16 +406,17 @@ template <Material M>
 /// \}
 
 /// \defgroup cosine_lobe Sampling matt surfaces
-/// \brief Section 3.2.4: cosine-weighted sampling, for every f that is close to a
-/// constant; also for materials of one's own.
+/// \brief Section 3.2.4: cosine-weighted sampling, which suits every f that is close to
+/// a constant.
 /// \{
 
 /// The density of sample_cosine_lobe().
 /// \param wo     Outgoing direction, a unit vector in the surface's frame.
 /// \param wi     Direction towards the light, a unit vector in the same frame.
 /// \param which  The lobes to sample from.
-/// \return |cos(theta)|/pi per steradian on the side of `wo`; 0 elsewhere, and 0
-///         without Lobes::diffuse.
+/// \return |cos(theta)|/pi per steradian on the side of `wo`, where theta is the angle
+///         of `wi` to the normal. 0 on the other side, or if `which` lacks
+///         Lobes::diffuse.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -406,13 +425,14 @@ template <std::floating_point T>
     return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
 }
 
-/// Samples a direction on the side of `wo`, with density cos/pi.
+/// Samples a direction on the side of `wo`. Its density is the cosine to the normal
+/// over pi, per steradian.
 /// \param wo     Outgoing direction, a unit vector in the surface's frame.
 /// \param u      Point of [0,1)^3; z is not used.
 /// \param which  The lobes to sample from.
-/// \return The sample, its weight that of f = 1/pi: 1. The weight of another f is
-///         f cos/pdf, which is pi f. Nothing if `wo` lies on the surface or without
-///         Lobes::diffuse.
+/// \return The sample with a weight of 1, which is right for f = 1/pi. A caller with
+///         another f sets the weight to pi f. Nothing if `wo` is parallel to the
+///         surface, or if `which` lacks Lobes::diffuse.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
@@ -420,7 +440,7 @@ template <std::floating_point T>
 sample_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& u, Lobes which) noexcept {
     std::optional<BsdfSampleT<T>> next;
     if (!has(which, Lobes::diffuse) || !(wo.z > T(0) || wo.z < T(0))) return next;
-    next.emplace(); // filled in place: copying what was just written is slow
+    next.emplace(); // filled in place, to save a copy
     Vec3T<T>& wi = next->wi;
     wi = sample_cosine_hemisphere(Vec2T<T>{u.x, u.y});
     next->pdf = pdf_cosine_hemisphere(wi);

@@ -26,7 +26,7 @@ struct MirrorT {
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
 
-/// The mirror direction. The weight is the reflectance: delta and cosine cancel.
+/// Returns the mirror direction. Its weight is the reflectance.
 /// \cost Two sign changes.
 /// \report{Section 3.2.4, Eq. (4)}
 // [mirror sample]
@@ -50,20 +50,21 @@ void check(const MirrorT<T>& mirror) {
 /// \}
 
 /// \defgroup metal Polished metal
-/// \brief Section 3.2.4: a perfectly reflective surface with the colour of a metal.
+/// \brief Section 3.2.4: a mirror with the colour of a metal.
 /// \{
 
-/// Smooth two-sided metal. Its colour fades to white at grazing angles.
+/// A smooth two-sided surface of metal. Its colour fades to white at grazing angles.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    ConductorIndexT<T> index = gold<T>;         ///< n and k for each channel.
+    ConductorIndexT<T> index = gold<T>; ///< Complex index of refraction, per channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.
 
-/// The mirror direction, with the reflectance at its angle as weight.
+/// Returns the mirror direction. Its weight is the reflectance of the metal at the
+/// angle of `wo`.
 /// \cost Three times fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
@@ -76,7 +77,7 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), fresnel_conductor(cos_theta, metal.index));
 }
 
-/// Requires an index that a metal can have.
+/// Requires an index whose parts n and k are finite and at least 0.
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
     detail::require_conductor("metal.index", metal.index);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/mixture.hpp
-/// \brief The report's material: one set of sliders that never returns too much light.
+/// \brief The report's material: sliders for matt, mirror and glass, in any mixture.
 
 #include <numbers>
 
@@ -15,7 +15,7 @@ namespace ljus {
 /// \defgroup mixture The report's sliders
 /// \brief Section 3.2.1: all properties of a material of the report.
 ///
-/// Incident light is distributed once, from the top:
+/// Incident light is divided into fractions:
 ///
 /// | fraction                    | goes to                                        |
 /// |-----------------------------|------------------------------------------------|
@@ -24,10 +24,11 @@ namespace ljus {
 /// | (1 - r)(1 - F) transparency | refraction, with absorption by Beer's law      |
 /// | the rest                    | the matt body below; 1 - F of its light leaves |
 ///
-/// with F = specularity times fresnel() at the light's angle.
+/// Here F is the specularity times fresnel() for the angle between light and normal.
 ///
-/// \erratum{In the program reflectivity and transparency are independent: its thin
-/// glass, with 0.6 and 1, returns up to 1.6 times the light.}
+/// \erratum{In the report's program reflectivity and transparency are independent. Its
+/// thin glass has a reflectivity of 0.6 and a transparency of 1, and returns up to 1.6
+/// times the incident light.}
 /// \{
 
 /// A material of the report.
@@ -37,17 +38,18 @@ struct MixtureT {
     using Scalar = T;         ///< The precision of its numbers.
     RgbT<T> color{T(0.5)};    ///< Colour of matt lobe and emission, in [0, 1].
     T reflectivity = T(0);    ///< Fraction reflected by a perfect mirror, in [0, 1].
-    T transparency = T(0);    ///< Transmitted fraction of what enters, in [0, 1].
+    T transparency = T(0);    ///< Transmitted fraction of entering light, in [0, 1].
     T index = T(1.5);         ///< Index of refraction inside.
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
-    T emissivity = T(0);      ///< Emitted radiance is emissivity times color, >= 0.
+    T emissivity = T(0);      ///< Emitted radiance over color, W/(m^2 sr), >= 0.
     T sigma = T(0);           ///< Roughness of the matt lobe, radians; 0: Lambert.
-    RgbT<T> absorption{T(0)}; ///< Inside, per scene unit, >= 0.
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
 
-/// The lobes of this material: a specular one if it has a mirror, a reflecting boundary
-/// or transparency; a diffuse one if the matt lobe is not black, or if it is alone.
+/// The lobes of this material. Lobes::specular is among them if the material has
+/// reflectivity, transparency or a reflecting boundary. Lobes::diffuse is among them if
+/// the matt lobe is not black, or if there is no specular lobe.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const MixtureT<T>& mixture) noexcept {
     const bool boundary =
@@ -62,10 +64,10 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// F: the boundary's reflectance for a direction.
+/// The reflectance F of the boundary for a direction.
 /// \param mixture  The material. If it is opaque, both sides count as outside.
 /// \param w        Unit vector; z < 0 is inside a transparent body.
-/// \return specularity times fresnel(), and 1 where nothing can be refracted.
+/// \return specularity times fresnel(), or 1 in total internal reflection.
 template <std::floating_point T>
 [[nodiscard]] T boundary_reflectance(const MixtureT<T>& mixture,
                                      const Vec3T<T>& w) noexcept {
@@ -77,18 +79,19 @@ template <std::floating_point T>
     return transparent && f >= T(1) ? T(1) : mixture.specularity * f;
 }
 
-/// The fractions of light per lobe; the rest is absorbed.
+/// The fractions of light that the lobes of a Mixture scatter.
 template <std::floating_point T>
 struct LobeFractionsT {
-    T diffuse; ///< Matt lobe, times its brightest channel.
+    T diffuse; ///< The matt lobe, in its brightest channel.
     T refract; ///< Refraction.
-    T reflect; ///< Mirror and boundary's reflection, which share a direction.
+    T reflect; ///< The mirror and the reflection of the boundary.
     [[nodiscard]] constexpr T sum() const noexcept {
         return diffuse + refract + reflect;
     }
 };
 
-/// The fractions in whose proportion sample() chooses; lobes not in `which` get 0.
+/// The fraction of light for each lobe. sample() chooses a lobe in proportion to its
+/// fraction. A lobe that is not in `which` gets 0.
 template <std::floating_point T>
 [[nodiscard]] LobeFractionsT<T>
 lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noexcept {
@@ -103,8 +106,8 @@ lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
 
 } // namespace detail
 
-/// f of the matt lobe. Light crosses the boundary twice, so that 1 - F appears twice
-/// and f is reciprocal.
+/// f of the matt lobe. The factor 1 - F appears twice, for `wi` and for `wo`, because
+/// light crosses the boundary on its way in and on its way out.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [mixture]
@@ -132,11 +135,11 @@ template <std::floating_point T>
     return share.diffuse / share.sum() * pdf_cosine_lobe(wo, wi, Lobes::diffuse);
 }
 
-/// Samples one direction: u.z chooses a lobe in proportion to its fraction of the
-/// light. The weight is then the sum of the fractions. For the matt lobe it is
-/// multiplied by the colour over its brightest channel, by 1 - F for `wi`, and by
-/// oren_nayar_ratio().
-/// \return A sample with a pdf above 0 unless it is specular.
+/// Samples one direction. u.z chooses a lobe in proportion to the lobe's fraction of
+/// the light, so that the weight is the sum of all fractions. The weight of the matt
+/// lobe has three more factors: the colour over its brightest channel, 1 - F for `wi`,
+/// and oren_nayar_ratio().
+/// \return The sample. Its pdf is above 0 unless it is specular.
 /// \cost Fresnel once for `wo`, and for the matt lobe once for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
@@ -158,7 +161,7 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
             tint *
             (sum * ratio * (T(1) - detail::boundary_reflectance(mixture, matt->wi)));
         matt->pdf *= share.diffuse / sum;
-        // A matt lobe so dark that its probability underflows is left out.
+        // If the lobe is so dark that its probability underflows, nothing is sampled.
         if (!(matt->pdf > T(0))) matt.reset();
         return matt;
     }
@@ -167,7 +170,7 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
         const T scale = transport == Transport::radiance ? eta * eta : T(1);
         if (const auto wi = refract(wo, eta))
             return specular_sample(*wi, RgbT<T>{sum}, scale);
-        // At the critical angle rounding may decide differently from F.
+        // At the critical angle, by rounding, there may be no refracted direction.
     }
     return specular_sample(reflect(wo), RgbT<T>{sum});
 }
@@ -184,14 +187,14 @@ template <std::floating_point T>
     return mixture.absorption;
 }
 
-/// The emitted radiance, uniform over the directions of the emitting side.
+/// The emitted radiance. It is the same in all directions of the emitting side.
 /// \return emissivity times color, in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> emission(const MixtureT<T>& mixture) noexcept {
     return mixture.emissivity * mixture.color;
 }
 
-/// Requires every slider within its range.
+/// Requires every member to be within its range.
 template <std::floating_point T>
 void check(const MixtureT<T>& mixture) {
     require_unit("mixture.color", mixture.color);

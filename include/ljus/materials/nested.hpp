@@ -11,8 +11,7 @@ namespace ljus {
 /// \{
 
 /// Glass, rough glass or another transparent material with a priority, for bodies that
-/// overlap others. As a MaterialWrapper it scatters as against air. A scene that lists
-/// no such type pays nothing for it.
+/// overlap other bodies.
 ///
 ///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, 2});
 ///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, 1});
@@ -23,10 +22,12 @@ struct Nested {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
     static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
     Base base{};                                   ///< The material.
-    int priority = 0; ///< Where bodies overlap, the highest holds; others have 0.
+    /// Where bodies overlap, the body with the highest priority fills the space. A
+    /// material that is not Nested has priority 0.
+    int priority = 0;
 };
 
-/// The base; see material_at().
+/// The base at a point; see material_at().
 template <typename Base, std::floating_point T>
 [[nodiscard]] constexpr decltype(auto) at_point(const Nested<Base>& nested,
                                                 const Vec3T<T>& position,
@@ -43,7 +44,7 @@ template <typename Base>
 /// \name Functions of the base
 /// \{
 
-/// Both branches of the base, against air.
+/// The result of split() for the base.
 template <typename Base, std::floating_point T>
 [[nodiscard]] auto split(const Nested<Base>& nested, const Vec3T<T>& wo,
                          Transport transport) noexcept

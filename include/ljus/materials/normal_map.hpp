@@ -8,28 +8,29 @@
 namespace ljus {
 
 /// \defgroup normal_map Normal maps
-/// \brief Dents and grooves that are only shaded \cite blinn1978. Chapter:
-/// \ref ch_textures.
+/// \brief Dents and grooves that change the shading but not the shape \cite blinn1978.
+/// Chapter: \ref ch_textures.
 ///
-/// The picture turns the shading normal, and nothing else: outlines, shadows and the
-/// side of a direction are those of the shape. What two normals at one point mean for
-/// light and photons is in chapter \ref ch_shading_normals.
+/// The picture turns only the shading normal. The geometric normal stays that of the
+/// shape, and so do outlines and shadows. Chapter \ref ch_shading_normals explains how
+/// light and photons are scattered where the two normals differ.
 /// \{
 
-/// A picture of normals, in place of a texture of Textured. Red, green and blue are
-/// (1 + n)/2 of a normal n: along u, along v, and outwards.
+/// A picture of normals, for Textured. Red, green and blue are (1 + n)/2, where n is
+/// the component of the normal along u, along v, and outwards, respectively.
 template <std::floating_point T>
 struct NormalMapT {
-    static constexpr bool uses_uv = true;    ///< It is in the coordinates of the shape.
-    PictureTextureT<T, UvMapT<T>> picture{}; ///< Numbers, not colours; load_image().
+    static constexpr bool uses_uv = true; ///< The picture is looked up by uv.
+    /// The picture, loaded as numbers and not as colours; see load_image().
+    PictureTextureT<T, UvMapT<T>> picture{};
 };
 using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 
-/// The normal of a material in the directions of its shape's coordinates.
+/// The shading normal that the picture of a material gives.
 /// \param mapped  The material.
 /// \param uv      From texture_coordinates().
-/// \return x along u, y along v, z outwards; of any length. Exactly (0, 0, 1) for the
-///         colour (0.5, 0.5, 1).
+/// \return A normal of any length, with x along u, y along v and z outwards. It is
+///         exactly (0, 0, 1) for the colour (0.5, 0.5, 1).
 /// \cost color_at() of the picture.
 template <typename Base, std::floating_point T>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, NormalMapT<T>>& mapped,
@@ -39,7 +40,7 @@ template <typename Base, std::floating_point T>
     return {direction_on_shape(picture.map, Vec2T<T>{n.x, n.y}), n.z};
 }
 
-/// The same for a textured material over one with a normal map.
+/// The shading normal of a textured material whose base has a normal map.
 template <typename Base, typename Texture, std::floating_point T>
 requires NormalMapped<Base>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, Texture>& textured,

@@ -14,13 +14,15 @@ namespace ljus {
 
 /// \defgroup oren_nayar Oren-Nayar
 /// \brief Section 3.2.1: the Oren-Nayar BRDF, \cite orennayar1994.
-/// \erratum{The program uses the cosine between wi and wo where the model has that
-/// between their azimuths, and clamps the sum. Figure 14 shows roughness 1, 10 and 100:
-/// the unit is radians, and A and B saturate long before 10.}
+/// \erratum{The report's program uses the cosine of the angle between wi and wo, where
+/// the model has the cosine of the angle between their azimuths, and clamps the result
+/// to 1. Figure 14 shows roughness 1, 10 and 100. The unit is radians, and the
+/// coefficients A and B of the model are nearly constant above 3.}
 /// \{
 
-/// A two-sided surface of matt facets whose slopes vary by `sigma`: it looks flatter
-/// than Lambert's, and brighter towards the light.
+/// A two-sided surface of matt facets with random slopes. Its shading is flatter than
+/// that of a Lambertian surface. It looks brighter when seen from the direction of the
+/// light.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct OrenNayarT {
@@ -30,7 +32,7 @@ struct OrenNayarT {
 };
 using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
 
-/// The lobes of this material: a diffuse one, even if it is black.
+/// The lobes of this material: Lobes::diffuse, even for a black surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const OrenNayarT<T>&) noexcept {
     return Lobes::diffuse;
@@ -38,9 +40,9 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The larger cosine of two directions to the normal, with a lower bound that keeps
-/// quotients finite where both directions graze.
-/// \return At least epsilon^2.
+/// The larger of the cosines between two directions and the normal.
+/// \return At least the square of the machine epsilon of T, so that a division by the
+///         result stays finite for grazing directions.
 template <std::floating_point T>
 [[nodiscard]] T larger_cosine(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -53,13 +55,13 @@ template <std::floating_point T>
 ///     A = 1 - \frac{\sigma^2}{2(\sigma^2 + 0.33)}, \quad
 ///     B = \frac{0.45\,\sigma^2}{\sigma^2 + 0.09} \f]
 ///
-/// where alpha is the larger and beta the smaller of the two angles to the normal. The
-/// product of both sines with the cosine of the azimuths is x_i x_o + y_i y_o, and the
-/// tangent leaves a division by the larger cosine: no angle is computed.
+/// Here sigma is the roughness, phi_i and phi_o are the azimuths of wi and wo, alpha is
+/// the larger of their angles to the normal, and beta the smaller. The code computes no
+/// angles: the cosine of the azimuths times both sines is x_i x_o + y_i y_o, and a
+/// division by the larger cosine turns the sine of beta into its tangent.
 /// \param sigma   Roughness in radians, in [0, 1000].
 /// \param wo, wi  Unit vectors on the same side.
-/// \return The ratio: at least 1/2, and unbounded where both directions graze: up to
-///         3e13 in float.
+/// \return At least 1/2. Where both directions graze, up to 3e13 in float.
 /// \cost Three divisions; no trigonometric function.
 // [oren nayar]
 template <std::floating_point T>
@@ -75,9 +77,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). Light between facets is left
-/// out, so that white returns less than all light at most angles; at grazing angles the
-/// model returns up to 1.5 percent too much.
+/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). The model leaves out the
+/// light that facets send to each other, so that a white surface loses light at most
+/// angles. At grazing angles it reflects up to 1.5 percent more light than it receives.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -88,15 +90,16 @@ template <std::floating_point T>
                              detail::oren_nayar_ratio(surface.sigma, wo, wi));
 }
 
-/// The density of sample(), per steradian: pdf_cosine_lobe().
+/// The density of sample(): that of pdf_cosine_lobe(), per steradian.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const OrenNayarT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// Samples the density cos/pi; the weight is the albedo times the ratio.
-/// \cost That of Lambert's, and three divisions.
+/// Samples a direction by sample_cosine_lobe(). The weight is the albedo times
+/// oren_nayar_ratio().
+/// \cost One sine, one cosine, one square root and three divisions.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -112,8 +115,8 @@ sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 namespace detail {
 
-/// Requires a roughness within [0, 1000] radians; `what` is its name, e.g.
-/// "oren_nayar.sigma".
+/// Requires a roughness within [0, 1000] radians.
+/// \param what  The name of the member for the message, e.g. "oren_nayar.sigma".
 template <std::floating_point T>
 void require_roughness(std::string_view what, T sigma) {
     require(sigma >= T(0) && sigma <= T(1000), what, sigma,

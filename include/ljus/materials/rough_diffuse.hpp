@@ -1,23 +1,25 @@
 #pragma once
 
 /// \file ljus/materials/rough_diffuse.hpp
-/// \brief Relatives of the qualitative Oren-Nayar model, older and newer.
+/// \brief Other formulas for rough matt surfaces: Oren and Nayar's full model, Fujii's
+/// two models, and the formula of the report's program.
 
 #include "ljus/materials/oren_nayar.hpp"
 
 namespace ljus {
 
 /// \defgroup rough_diffuse Models of rough matt surfaces
-/// \brief Section 3.2.1: which Oren-Nayar?
+/// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
 /// \{
 
-/// The formulas that bear the name. The number is the largest fraction of a constant
-/// sky that a white surface returns, over all angles and roughnesses.
+/// A formula that is called Oren-Nayar. The numbers are the largest fraction of the
+/// light of a uniform sky that a white surface reflects, over all directions and
+/// roughnesses.
 enum class RoughModel : std::uint8_t {
-    as_printed, ///< The report's program: 0.57; the angle between wi and wo, a clamp.
-    full,       ///< Oren and Nayar 1994 with interreflection between facets: 1.05.
-    fujii, ///< Fujii's first improvement \cite fujii2012, with its 0.17 term: 1.03.
-    fon    ///< Fujii's second, which adds no light: 1. Its roughness is in [0, 1].
+    as_printed, ///< The formula of the report's program; reflects up to 1.
+    full,       ///< Oren and Nayar's full model of 1994; reflects up to 1.05.
+    fujii,      ///< Fujii's first model; reflects up to 1.03.
+    fon         ///< Fujii's second model, roughness in [0, 1]; reflects up to 1.
 };
 
 /// A two-sided matt surface by one of the models.
@@ -31,14 +33,15 @@ struct RoughDiffuseT {
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 
-/// \name The formulas, over albedo/pi
+/// \name The formulas as ratios to Lambert's BRDF, albedo/pi
 /// \{
 
 namespace detail {
 
-/// The formula of the report's program: it uses the cosine between the directions for
-/// that between their azimuths, and clamps the sum to 1.
-/// \return The ratio to Lambert, in [1/2, 1].
+/// The formula of the report's program. Unlike oren_nayar_ratio(), it uses the cosine
+/// of the angle between wi and wo in place of that between their azimuths, has 0.57 in
+/// place of 0.33, and clamps the result to 1.
+/// \return The ratio to Lambert's BRDF, in [1/2, 1].
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 [[nodiscard]] T rough_as_printed(T sigma, const Vec3T<T>& wo,
@@ -52,24 +55,26 @@ template <std::floating_point T>
     return std::min(T(1), a + b * cosine * tangent);
 }
 
-/// Light reflected after one and after two reflections between facets, relative to that
-/// of a Lambertian surface.
+/// The parts of a BRDF that are due to one and to two reflections between facets. The
+/// BRDF is (single albedo + twice albedo^2)/pi.
 template <std::floating_point T>
 struct RoughRatiosT {
-    T single{}; ///< Factor of albedo/pi.
-    T twice{};  ///< Factor of albedo^2/pi.
+    T single{}; ///< The ratio for light reflected once.
+    T twice{};  ///< The ratio for light reflected twice.
 };
 
-/// The full model of 1994, equations (30) and (31) of \cite orennayar1994.
+/// The full model of 1994, equations (30) and (31) of \cite orennayar1994. The ratios
+/// for light reflected once and twice are
 ///
 /// \f[ C_1 + \cos\phi\,C_2 \tan\beta +
 ///     (1 - |\cos\phi|)\,C_3 \tan\frac{\alpha+\beta}{2},
 ///     \quad 0.17 \frac{\sigma^2}{\sigma^2 + 0.13}
 ///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
 ///
-/// where alpha is the larger of the two angles to the normal, and beta the smaller.
-/// \return Both ratios. For opposite grazing directions the terms cancel and lose all
-///         digits, and the sum may be negative.
+/// where alpha is the larger of the angles of wi and wo to the normal, beta the
+/// smaller, and phi the angle between the azimuths. The code gives C_1, C_2 and C_3.
+/// \return Both ratios. For grazing directions from opposite sides the terms cancel,
+///         and `single` has no correct digits and may be negative.
 /// \cost Two arc tangents, nine divisions.
 // [full]
 template <std::floating_point T>
@@ -99,8 +104,9 @@ template <std::floating_point T>
 }
 // [full]
 
-/// Fujii's term s/t, where s, the product of both sines with the cosine of the
-/// azimuths, is divided only if it is positive.
+/// Fujii's term s/t. Here s is the product of three factors: the sines of the two
+/// angles to the normal, and the cosine of the angle between the azimuths. If s is
+/// positive, t is the larger of the two cosines to the normal, otherwise 1.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -109,8 +115,8 @@ template <std::floating_point T>
     return s > T(0) ? s / larger_cosine(wo, wi) : std::max(s, T(-1));
 }
 
-/// Fujii's improved model.
-/// \return Both ratios.
+/// Fujii's first model.
+/// \return The ratios for light reflected once and twice.
 /// \cite fujii2012
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_fujii(T sigma, const Vec3T<T>& wo,
@@ -126,7 +132,7 @@ template <std::floating_point T>
 inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
 
 /// Fujii's second model, called FON by \cite eon2025.
-/// \return The ratio to Lambert.
+/// \return The ratio to Lambert's BRDF.
 /// \cost Two divisions.
 template <std::floating_point T>
 [[nodiscard]] T rough_fon(T roughness, const Vec3T<T>& wo,
@@ -142,8 +148,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Pi times the BRDF, the weight of a cosine-weighted sample.
-/// \return At least 0; negative values of rough_full() become 0.
+/// Pi times the BRDF. This is the weight of a cosine-weighted sample.
+/// \return At least 0, because negative values of rough_full() are replaced by 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
                                    const Vec3T<T>& wi) noexcept {
@@ -166,13 +172,13 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The lobes of this material: a diffuse one, even if it is black.
+/// The lobes of this material: Lobes::diffuse, even for a black surface.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const RoughDiffuseT<T>&) noexcept {
     return Lobes::diffuse;
 }
 
-/// The BRDF of the surface's model.
+/// The BRDF, by the formula that the surface names.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
@@ -181,14 +187,14 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> * detail::rough_weight(surface, wo, wi);
 }
 
-/// The density of sample(), per steradian: pdf_cosine_lobe().
+/// The density of sample(): that of pdf_cosine_lobe(), per steradian.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf(const RoughDiffuseT<T>&, const Vec3T<T>& wo,
                               const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {
     return pdf_cosine_lobe(wo, wi, which);
 }
 
-/// Samples the density cos/pi.
+/// Samples a direction by sample_cosine_lobe(). The weight is pi times the BRDF.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -199,8 +205,8 @@ sample(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
     return next;
 }
 
-/// Requires an albedo within [0, 1] and a valid roughness, which for `fon` is at most
-/// 1.
+/// Requires an albedo within [0, 1], and a roughness within [0, 1000] radians or, for
+/// RoughModel::fon, within [0, 1].
 template <std::floating_point T>
 void check(const RoughDiffuseT<T>& surface) {
     require_unit("rough_diffuse.albedo", surface.albedo);

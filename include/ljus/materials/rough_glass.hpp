@@ -18,37 +18,38 @@ namespace ljus {
 /// \brief Beyond the report: microfacets that reflect and refract. Chapter:
 /// \ref ch_rough_glass.
 ///
-/// Each facet is a smooth boundary \cite walter2007. Two directions on one side of the
-/// surface are joined by the facet that reflects one into the other; two directions on
-/// different sides by the facet that refracts one into the other. With the relative
-/// index \f$ \eta = n_o/n_i \f$ its normal is
+/// Each facet is a smooth boundary \cite walter2007. Light from w_i leaves along w_o if
+/// it meets a facet that reflects or refracts w_i into w_o. The normal of this facet is
 ///
 /// \f[ h = \pm\frac{\eta\, w_o + w_i}{L}, \qquad L = |\eta\, w_o + w_i| \f]
 ///
-/// All lobes have a density, so that in Heckbert's letters rough glass is a D: shadow
-/// rays end on it, but start from it through the surface as well.
+/// where \f$ \eta = n_o/n_i \f$ is the ratio of the indices on the sides of w_o and of
+/// w_i, which is 1 for a reflection.
+///
+/// The lobe has a density, so that rough glass counts as D in Heckbert's notation. A
+/// shadow ray that meets rough glass is blocked. From a vertex on rough glass, shadow
+/// rays are cast to both sides of the surface.
 /// \{
 
-/// The rough boundary of a transparent body: outside is z > 0 and has index 1. Light
-/// that meets a second facet is lost. Of light along the normal, for index 1.5, that is
-/// 1 % from either side at roughness 0.3, 3 % from outside and 24 % from inside at 0.7,
-/// and 11 % and 58 % at 1.
+/// The rough boundary between a transparent body and air. The side z > 0 is air, with
+/// index 1. Light that meets a second facet is lost. For index 1.5 and light along the
+/// normal, the lost fraction is 1 % from either side at roughness 0.3. At roughness 0.7
+/// it is 3 % from outside and 24 % from inside; at roughness 1 it is 11 % and 58 %.
 /// \cite walter2007
 template <std::floating_point T>
 struct RoughGlassT {
     using Scalar = T;         ///< The precision of its numbers.
     T index = T(1.5);         ///< Index of refraction inside.
-    T roughness = T(0.3);     ///< alpha = roughness^2; 0 (GlassT) or in [0.01, 1].
-    RgbT<T> absorption{T(0)}; ///< Inside, per scene unit, >= 0.
+    T roughness = T(0.3);     ///< Square root of GGX's alpha; 0 or in [0.01, 1].
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using RoughGlass = RoughGlassT<float>; ///< RoughGlassT in float.
 
 namespace detail {
 
-/// Whether the facets spread refracted light by more than 2e-5 radians; the spread is
-/// about alpha |n - 1|. A smaller one, as of an index close to that of the
-/// surroundings, would vanish in the rounding of a float direction, and the boundary
-/// counts as smooth.
+/// Whether the facets spread refracted light by more than 2e-5 radians. The spread is
+/// about alpha |n - 1|, where n is the index. A smaller spread would vanish in the
+/// rounding of a direction in float, and the boundary is treated as smooth.
 template <std::floating_point T>
 [[nodiscard]] bool is_rough(const RoughGlassT<T>& glass) noexcept {
     return glass.roughness * glass.roughness * std::abs(glass.index - T(1)) > T(2e-5);
@@ -59,7 +60,7 @@ template <std::floating_point T>
     return {.index = glass.index, .absorption = glass.absorption};
 }
 
-/// A direction in the frame that is turned to the side of `wo`, where out.z > 0.
+/// The direction `w` in a frame whose z axis points to the side of `wo`.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> turned_to(const Vec3T<T>& wo, const Vec3T<T>& w) noexcept {
     return {w.x, w.y, wo.z < T(0) ? -w.z : w.z};
@@ -68,8 +69,8 @@ template <std::floating_point T>
 /// The indices on both sides of a boundary, as seen from `wo`.
 template <std::floating_point T>
 struct SidesT {
-    T here = T(1);   ///< On the side of `wo`.
-    T beyond = T(1); ///< On the other side.
+    T here = T(1);   ///< Index on the side of `wo`.
+    T beyond = T(1); ///< Index on the other side.
 };
 
 template <std::floating_point T>
@@ -79,12 +80,15 @@ template <std::floating_point T>
     return {glass.index, T(1)};
 }
 
-/// The density of the facet that joins two directions, times the fraction of light that
-/// goes this way, as the density of `in`: the visible normals of `out` times F/(4 h.wo)
-/// for reflection, or (1 - F) |h.wi| / L^2 for transmission.
-/// \param out, in  In the frame that is turned to `out`.
+/// The density with which sample() chooses the incident direction `in`. It is a product
+/// of three factors: the density of the facet h among the facets visible from `out`;
+/// the probability F of reflection or 1 - F of refraction; and the Jacobian from facets
+/// to directions, 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
+/// \ref rough_glass.
+/// \param alpha    The parameter of GGX.
+/// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
 /// \param n        Indices on the side of `out` and beyond.
-/// \return Per steradian; 0 if no facet that is visible joins them.
+/// \return Per steradian; 0 if no visible facet turns `in` into `out`.
 // [joined]
 template <std::floating_point T>
 [[nodiscard]] T density_of_joined(T alpha, const Vec3T<T>& out, const Vec3T<T>& in,
@@ -107,10 +111,12 @@ template <std::floating_point T>
 }
 // [joined]
 
-/// The fraction of light that facets do not block on its way along `in`, over |in.z|:
-/// for reflection G2/G1(out) with correlated heights, as for GlossyT; for transmission
-/// G1(in), for heights on both sides that are independent \cite walter2007.
-/// \param out, in  In the frame that is turned to `out`.
+/// The fraction of the light along `in` that no facet blocks, divided by |in.z|. For
+/// reflection the fraction is G2/G1(out) with correlated heights, as for GlossyT. For
+/// refraction it is G1(in), because heights on the two sides are taken as independent
+/// \cite walter2007.
+/// \param alpha    The parameter of GGX.
+/// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
 template <std::floating_point T>
 [[nodiscard]] T unblocked(T alpha, const Vec3T<T>& out, const Vec3T<T>& in) noexcept {
     const T r_in = ggx_lambda(alpha, in);
@@ -121,15 +127,17 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The lobes of this material: a glossy one, or a specular one if it is smooth.
+/// The lobes of this material: Lobes::glossy, or Lobes::specular if the boundary is
+/// smooth.
 template <std::floating_point T>
 [[nodiscard]] Lobes lobes(const RoughGlassT<T>& glass) noexcept {
     return detail::is_rough(glass) ? Lobes::glossy : Lobes::specular;
 }
 
 /// The density of sample().
-/// \return Per steradian, on both sides. Its integral is below 1, because reflected
-///         directions into the surface and refracted ones out of it are rejected.
+/// \return Per steradian, on both sides of the surface. The integral is below 1,
+///         because sample() rejects a reflected direction that points into the surface
+///         and a refracted direction that points out of it.
 /// \cite walter2007 \cite heitz2018
 template <std::floating_point T>
 [[nodiscard]] T pdf(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -141,16 +149,17 @@ template <std::floating_point T>
         detail::turned_to(wo, wi), detail::sides(glass, wo));
 }
 
-/// The BSDF for radiance. Reflected light has that of GlossyT with Fresnel's
-/// reflectance. For transmitted light
+/// The BSDF for radiance. For reflection it is the BRDF of GlossyT with Fresnel's
+/// reflectance F. For refraction it is
 ///
 /// \f[ f = \frac{|w_o \cdot h|\,|w_i \cdot h|}{|w_{o,z}|\,|w_{i,z}|}\,
 ///         \frac{\eta^2 (1 - F)\, D(h)\, G_1(w_o)\, G_1(w_i)}{L^2} \f]
 ///
-/// The directions of transmitted light can be exchanged only if the square of the index
-/// is divided out: \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
+/// with h, L and eta as on top of this page, \ref rough_glass, and with D and G_1 of
+/// \ref microfacet. Refraction is not symmetric in the two directions:
+/// \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
 /// \return f in 1/sr, without the cosine; 0 at grazing angles where f would overflow.
-/// \cost Four square roots, those of fresnel() and of normalisation included.
+/// \cost Four square roots, including those of fresnel() and of normalisation.
 /// \cite walter2007
 // [rough glass]
 template <std::floating_point T>
@@ -172,8 +181,8 @@ template <std::floating_point T>
 /// its Fresnel reflectance, and otherwise refracts. The weight is the fraction of light
 /// that no other facet blocks, at most 1. For refracted radiance it is multiplied by
 /// (n_o/n_i)^2, with the indices n_o on the side of `wo` and n_i on that of `wi`.
-/// \return Also nothing if a reflected direction points into the surface, or a
-///         refracted direction points out of it.
+/// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
+///         points into the surface, or a refracted direction points out of it.
 /// \cost One sine, one cosine, a dozen square roots.
 /// \cite walter2007 \cite heitz2018
 // [sample rough glass]
@@ -207,8 +216,8 @@ sample(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
 }
 // [sample rough glass]
 
-/// Both branches if it is smooth, as for GlassT.
-/// \return Nothing if it is rough.
+/// The reflected and the refracted sample of a smooth boundary, as for GlassT.
+/// \return Nothing if the boundary is rough.
 template <std::floating_point T>
 [[nodiscard]] std::optional<std::array<BsdfSampleT<T>, 2>>
 split(const RoughGlassT<T>& glass, const Vec3T<T>& wo, Transport transport) noexcept {

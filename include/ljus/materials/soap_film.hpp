@@ -14,28 +14,28 @@ namespace ljus {
 /// \defgroup soap_film Soap films
 /// \brief The soap bubble of figure 4. Chapter: \ref ch_soap_film.
 ///
-/// The film is a *thin sheet*: light that it does not reflect goes straight on through
-/// both surfaces, which is visibility, not scattering. sample() returns the reflection
-/// only, and pass_through() is the transmittance; see \ref next_vertex.
+/// The film is a *thin sheet*: shadow rays and photons pass straight through it and are
+/// tinted, see \ref next_vertex. sample() returns the reflection, and pass_through()
+/// the transmittance.
 /// \{
 
-/// How the colours are computed.
+/// The function that computes the colours of a film.
 enum class FilmColor : std::uint8_t {
-    table,             ///< look_up(): integrated over the spectrum in advance.
+    table,             ///< look_up() in a table.
     three_wavelengths, ///< film_three()
     preintegrated      ///< film_preintegrated()
 };
 
-/// A soap film in air. Its thickness falls with height, as in films that hang under
-/// their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
+/// A soap film in air. Its thickness falls with the height z, as in films that hang
+/// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T;                           ///< The precision of its numbers.
     static constexpr bool only_specular = true; ///< See OnlySpecular.
-    T thickness = T(400); ///< d_0 in nm, at the height of `level`; <= 1 mm.
+    T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
     T scale = T(0);       ///< h in scene units; 0: constant thickness.
-    Vec3T<T> level{T(0)}; ///< A point at the height where the thickness is d_0.
+    Vec3T<T> level{T(0)}; ///< A point at height z = 0.
     Vec3T<T> up{T(0), T(0), T(1)};              ///< Against gravity; unit vector.
     FilmColor color = FilmColor::preintegrated; ///< How the colours are computed.
     FilmTableT<T> table{}; ///< From bake_film_table(index), for FilmColor::table.
@@ -58,14 +58,16 @@ template <std::floating_point T>
     if (film.scale == T(0)) return film.thickness;
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
-    // A NaN, from 0 times infinity far below a film without thickness, gives the
-    // maximum.
+    // Far below `level`, a film with d_0 = 0 has a NaN, which gives the maximum.
     return thickness < detail::max_film_thickness<T> ? thickness
                                                      : detail::max_film_thickness<T>;
 }
 
-/// The reflectance of a film, for a cosine of either sign and a thickness in nm.
-/// \return R for each channel, in [0, 1].
+/// The reflectance of a film.
+/// \param film       The film.
+/// \param cos_theta  Cosine between ray and normal, of either sign.
+/// \param thickness  In nm.
+/// \return For each channel, in [0, 1].
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
                                   T thickness) noexcept {
@@ -81,7 +83,7 @@ template <std::floating_point T>
     return into_gamut(film_preintegrated(c, film.index, thickness));
 }
 
-/// A film at one point; it is a material itself.
+/// A film at one point, as a material of one thickness.
 template <std::floating_point T>
 struct FilmPointT {
     using Scalar = T;                           ///< The precision of its numbers.
@@ -90,11 +92,11 @@ struct FilmPointT {
     T thickness;                                ///< Thickness at the point, in nm.
 };
 
-/// Does nothing: the film has been checked.
+/// Checks nothing, because the film has been checked.
 template <std::floating_point T>
 void check(const FilmPointT<T>&) noexcept {}
 
-/// A film at a point; see material_at().
+/// The material of a film at a point; see material_at().
 /// \param film      The film; must outlive the result.
 /// \param position  The point.
 template <std::floating_point T>
@@ -105,15 +107,14 @@ template <std::floating_point T>
 
 /// The transmittance of a film at a point. A material with this function is a thin
 /// sheet.
-/// \return T = 1 - R for each channel.
+/// \return 1 minus the reflectance, for each channel.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                    const Vec3T<T>& wo) noexcept {
     return RgbT<T>{T(1)} - reflectance(film, wo.z, thickness_at(film, position));
 }
 
-/// The mirror direction, with the reflectance at the point as weight. Transmission is
-/// not sampled; see pass_through().
+/// Returns the mirror direction. Its weight is the reflectance at the point.
 /// \report{Figure 4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -124,7 +125,7 @@ sample(const FilmPointT<T>& point, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), reflectance(point.film, wo.z, point.thickness));
 }
 
-/// A sample of a film with the thickness of its `level`.
+/// Samples a film as if its thickness were `thickness` everywhere.
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -132,7 +133,8 @@ sample(const SoapFilmT<T>& film, const Vec3T<T>& wo, const Vec3T<T>& u,
     return sample(FilmPointT<T>{film, film.thickness}, wo, u, transport, which);
 }
 
-/// Requires every member within its range, and the table of the film's index.
+/// Requires every member to be within its range and, for FilmColor::table, a table that
+/// was made for the index of the film.
 template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/materials/textured.hpp
-/// \brief Any material with something that varies over its surface.
+/// \brief Materials that vary over the surface.
 
 #include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
@@ -9,22 +9,21 @@
 namespace ljus {
 
 /// \defgroup textured Textured materials
-/// \brief A material that varies over the surface: in colour, by holes or by normals.
+/// \brief Materials whose colour, holes or normals vary over the surface.
 ///
-/// Renderers call material_at(), which calls at_point(). A plain material has no
-/// at_point() and is used as it is; a textured one returns its base in the colour of
-/// the point. So a scene without textures compiles nothing of this. A base may be
-/// textured itself.
+/// Renderers call material_at(). For a textured material it calls at_point(), which
+/// returns the base in the colour of the point. The base may be textured itself.
 /// \{
 
-/// A material whose colour is multiplied by that of a texture; or with Holes or a
-/// NormalMap in place of the texture, which leave its colour. As a MaterialWrapper it
-/// scatters in the colour that the base itself has; material_at() has the texture's.
+/// A material whose colour is multiplied by that of a texture. Holes or a NormalMap in
+/// place of the texture leave the colour unchanged. The sample() and evaluate() of this
+/// type ignore the texture. Renderers call those of the material that material_at()
+/// returns.
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
     static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
-    /// As the texture or the base declares it.
+    /// True if the texture or the base uses uv.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
     Base base{};       ///< White, if the texture's colour is to be kept.
     Texture texture{}; ///< Colours within [0, 1].
@@ -32,7 +31,8 @@ struct Textured {
 
 namespace detail {
 
-/// A material with its `albedo`, `reflectance`, `tint` or `color` multiplied.
+/// A copy of a material whose `albedo`, `reflectance`, `tint` or `color` is multiplied
+/// by a colour.
 template <Material Base>
 [[nodiscard]] constexpr Base
 colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
@@ -49,7 +49,8 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 } // namespace detail
 
-/// The material at a point: the base there, in the texture's colour if it has one.
+/// The material at a point: the base at that point, multiplied by the colour of the
+/// texture.
 /// \cost color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
@@ -64,9 +65,9 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 // [at_point]
 
-/// The transmittance of a textured pane. Its texture may depend on the position only,
-/// because uv is not known here.
-/// \return The base's transmittance per channel.
+/// The transmittance of a textured pane. The texture must depend on the position only,
+/// because a shadow ray does not compute uv.
+/// \return Transmittance for each channel, in [0, 1].
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
@@ -78,10 +79,9 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 
 /// \name Functions of the base
-/// They answer for the whole material: for a survey, or when a shape is added.
 /// \{
 
-/// The base's absorption coefficient inside, if it has one: a matt base is no body.
+/// The absorption coefficient inside the base.
 /// \return Per scene unit.
 template <MayAbsorb Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
@@ -89,7 +89,7 @@ absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
 
-/// The base's emitted radiance, everywhere.
+/// The emitted radiance of the base. The texture does not change it.
 /// \return W/(m^2 sr).
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>

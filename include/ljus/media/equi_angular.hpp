@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/media/equi_angular.hpp
-/// \brief Equi-angular sampling: points of a ray by the angle at which a light sees
-/// them.
+/// \brief Equi-angular sampling: points of a ray, uniform in angle as seen from a
+/// light.
 
 #include <algorithm>
 #include <cmath>
@@ -12,25 +12,24 @@
 namespace ljus {
 
 /// \defgroup equi_angular Equi-angular sampling
-/// \brief The light that a ray receives falls with the square of the distance from the
-/// lamp; points chosen by angle take this factor away.
+/// \brief Points of a ray with a density that cancels the inverse square of their
+/// distance from a lamp.
 /// \{
 
-/// The points of a ray by the angle at which a light sees them \cite kulla2012.
+/// The angles at which a light sees the points of a ray \cite kulla2012.
 template <std::floating_point T>
 struct EquiAngularT {
     SpanT<T> span{};  ///< The part of the ray.
     T nearest = T(0); ///< t of the point of the line that is nearest to the light.
-    T away = T(1);    ///< Distance of that point from the light, in units of t.
-    T first = T(0);   ///< Angle of the first point of the span, in radians from there.
-    T opening = T(0); ///< Angle of the whole span, in radians.
+    T away = T(1);    ///< Distance of this nearest point from the light.
+    T first = T(0);   ///< Angle from the nearest point to the start of the span, rad.
+    T opening = T(0); ///< Angle from the start to the end of the span, in radians.
 };
 
-/// Prepares equi-angular sampling.
-///
-/// A light on the ray would attract all points; it is treated as if it were a
-/// thousandth of the span away. Any distance gives a valid density.
-/// \param ray    Its direction has unit length.
+/// Prepares equi-angular sampling. A light on the ray would attract all points. The
+/// distance between light and ray therefore counts as at least a thousandth of the
+/// length of the span.
+/// \param ray    The ray, with a unit direction.
 /// \param span   The part of the ray; finite.
 /// \param light  Position of the light.
 // [equi angular]
@@ -47,9 +46,9 @@ template <std::floating_point T>
 }
 
 /// Samples a point of the ray.
-/// \param angles  Of equi_angular().
+/// \param angles  From equi_angular().
 /// \param u       In [0, 1).
-/// \return t, within the span.
+/// \return The parameter t of the point, within the span.
 template <std::floating_point T>
 [[nodiscard]] T sample_equi_angular(const EquiAngularT<T>& angles, T u) noexcept {
     const T t =

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/media/fog.hpp
-/// \brief Fog: a medium that absorbs and scatters, the same everywhere in its region.
+/// \brief Fog: a homogeneous medium that absorbs and scatters light.
 
 #include <algorithm>
 #include <cmath>
@@ -15,32 +15,31 @@ namespace ljus {
 
 /// \defgroup fog Fog
 /// \brief Beyond the report: light that is scattered between the surfaces
-/// \cite novak2018.
+/// \cite novak2018. Chapter: \ref ch_fog.
 /// \{
 
 namespace detail {
 
-/// The precision of a region, BoxT<T> or SphereT<T>.
+/// The scalar type of a region, BoxT<T> or SphereT<T>. Only its return type is used.
 template <template <std::floating_point> typename Region, std::floating_point T>
 T precision_of(const Region<T>&);
 
 } // namespace detail
 
-/// Fog in a sphere or in a box:
+/// Fog in a sphere or in a box. It has the same coefficients everywhere in its region.
+/// A region that is larger than a room fills the room.
 ///
 ///     Scene<Shapes<Quad>, Materials<Lambertian>, Lights<>, Media<Fog<Box>>> scene;
 ///     scene.add(Fog<Box>{.region{{-1, 0, -1}, {1, 2, 1}}, .scattering = Rgb{0.2f}});
 ///
-/// Per unit of length a fraction of the light is absorbed, and another scattered. A
-/// region larger than a room fills the room.
 /// \tparam Region  Sphere or Box.
 template <typename Region>
 struct Fog {
-    /// The precision.
+    /// The precision of its numbers.
     using Scalar = decltype(detail::precision_of(std::declval<const Region&>()));
-    Region region{};                    ///< Where it is, in scene units.
-    RgbT<Scalar> absorption{Scalar(0)}; ///< sigma_a, per scene unit.
-    RgbT<Scalar> scattering{Scalar(0)}; ///< sigma_s, per scene unit.
+    Region region{};                    ///< The space that it fills, in scene units.
+    RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
+    RgbT<Scalar> scattering{Scalar(0)}; ///< Coefficient sigma_s, per scene unit.
     Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().
 };
 
@@ -48,7 +47,7 @@ struct Fog {
 /// \{
 
 /// The part of a ray in a sphere.
-/// \return Nothing if the ray misses it, or only touches it.
+/// \return Nothing if the ray misses the sphere or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
                                               const RayT<T>& ray) noexcept {
@@ -66,7 +65,7 @@ template <std::floating_point T>
 }
 
 /// The part of a ray in a box.
-/// \return Nothing if the ray misses it, or only touches it.
+/// \return Nothing if the ray misses the box or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
                                               const RayT<T>& ray) noexcept {
@@ -76,7 +75,7 @@ template <std::floating_point T>
         const T low = (box.low[axis] - ray.origin[axis]) * inverse;
         const T high = (box.high[axis] - ray.origin[axis]) * inverse;
         const bool back = std::signbit(inverse);
-        // Neither is true for NaN, of a ray in the plane of a side.
+        // A ray in the plane of a side gives NaN, for which both conditions are false.
         if ((back ? high : low) > span.first) span.first = back ? high : low;
         if ((back ? low : high) < span.last) span.last = back ? low : high;
     }
@@ -84,7 +83,7 @@ template <std::floating_point T>
     return span;
 }
 
-/// A box around a sphere.
+/// The smallest box around a sphere.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds_of(const SphereT<T>& sphere) noexcept {
     return {sphere.center - sphere.radius, sphere.center + sphere.radius};
@@ -96,16 +95,18 @@ template <std::floating_point T>
     return box;
 }
 
-/// Refuses a region without an inside.
-/// \throws std::invalid_argument  if a number is not finite, or the radius not above 0.
+/// Checks a spherical region.
+/// \throws std::invalid_argument  if the centre is not finite, or the radius is not
+///         finite and above 0.
 template <std::floating_point T>
 void check_region(const SphereT<T>& sphere) {
     require_finite("fog.region.center", sphere.center);
     require_positive("fog.region.radius", sphere.radius);
 }
 
-/// Refuses a box without an inside.
-/// \throws std::invalid_argument  if a number is not finite, or low not below high.
+/// Checks a box as a region.
+/// \throws std::invalid_argument  if a number is not finite, or a component of `low` is
+///         not below that of `high`.
 template <std::floating_point T>
 void check_region(const BoxT<T>& box) {
     require_finite("fog.region.low", box.low);
@@ -118,9 +119,9 @@ void check_region(const BoxT<T>& box) {
 /// \name Fog as a Medium
 /// \{
 
-/// Refuses invalid fog.
-/// \throws std::invalid_argument  if the region has no inside, a coefficient is
-///         negative or not finite, or g is outside [-0.99, 0.99].
+/// Checks fog.
+/// \throws std::invalid_argument  if the region has no volume or is not finite, a
+///         coefficient is negative or not finite, or g is outside [-0.99, 0.99].
 template <typename Region>
 void check(const Fog<Region>& fog) {
     using T = typename Fog<Region>::Scalar;
@@ -132,7 +133,7 @@ void check(const Fog<Region>& fog) {
     require(std::abs(fog.g) <= T(0.99), "fog.g", fog.g, "within [-0.99, 0.99]");
 }
 
-/// A box around the fog.
+/// The smallest box around the fog.
 template <typename Region>
 [[nodiscard]] auto bounds(const Fog<Region>& fog) noexcept {
     return bounds_of(fog.region);
@@ -140,33 +141,34 @@ template <typename Region>
 
 /// The part of a ray in the fog.
 /// \param fog  The fog.
-/// \param ray  Its direction may have any length but zero.
-/// \return Within [t_min, t_max]; nothing if the ray misses the fog.
+/// \param ray  The ray. Its direction may have any length above 0.
+/// \return The part within [t_min, t_max] of the ray; nothing if the ray misses the
+///         fog.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {
     return span_of(fog.region, ray);
 }
 
-/// Absorption plus scattering: sigma_t, per scene unit.
+/// The extinction coefficient sigma_t: absorption plus scattering, per scene unit.
 template <typename Region>
 [[nodiscard]] auto extinction(const Fog<Region>& fog) noexcept {
     return fog.absorption + fog.scattering;
 }
 
-/// Scattering alone: sigma_s, per scene unit.
+/// The scattering coefficient sigma_s, per scene unit.
 template <typename Region>
 [[nodiscard]] auto scattering(const Fog<Region>& fog) noexcept {
     return fog.scattering;
 }
 
-/// Its phase function, per steradian: henyey_greenstein().
+/// The phase function of the fog, per steradian: henyey_greenstein().
 template <typename Region, std::floating_point T>
 [[nodiscard]] T phase(const Fog<Region>& fog, T cosine) noexcept {
     return henyey_greenstein(fog.g, cosine);
 }
 
-/// Samples a direction of travel after scattering, with the density phase().
+/// Samples the direction of travel after scattering, with the density phase().
 template <typename Region, std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_phase(const Fog<Region>& fog, const Vec3T<T>& travel,
                                     const Vec2T<T>& u) noexcept {

@@ -14,32 +14,33 @@ namespace ljus {
 /// \defgroup medium Media
 /// \brief What fills space between the surfaces: fog, smoke, murky water.
 ///
-/// A medium is the same everywhere in its region, and is not a surface: rays pass its
-/// border. It fills the space around bodies of glass, but not the bodies themselves.
-/// Where several media overlap, their coefficients add up. A scene lists their types,
-/// `Media<Fog<Sphere>>`; one that lists none pays nothing.
+/// A medium has the same coefficients everywhere in its region. The border of the
+/// region is not a surface: rays go straight through it. A medium fills the space
+/// around bodies of glass, but not the bodies themselves. Where several media overlap,
+/// their coefficients add up. A scene lists the types of its media, as in
+/// `Media<Fog<Sphere>>`.
 ///
 /// A medium is a struct with a member type `Scalar` and these functions:
 ///
 /// | function                        | returns                                       |
 /// |---------------------------------|-----------------------------------------------|
 /// | check(medium)                   | nothing; throws, and names the wrong member   |
-/// | bounds(medium)                  | a box around it                               |
-/// | span_in(medium, ray)            | the part of a ray in it, a SpanT, or nothing  |
+/// | bounds(medium)                  | a box around the medium                       |
+/// | span_in(medium, ray)            | the part of the ray in it, a SpanT, or nothing|
 /// | extinction(medium)              | absorption plus scattering, per scene unit    |
 /// | scattering(medium)              | scattering alone, per scene unit              |
-/// | phase(medium, cosine)           | its phase function, per steradian             |
-/// | sample_phase(medium, travel, u) | a direction after scattering, of that density |
+/// | phase(medium, cosine)           | the phase function, per steradian             |
+/// | sample_phase(medium, travel, u) | a direction of travel, with density phase()   |
 /// \{
 
 /// A part of a ray.
 template <std::floating_point T>
 struct SpanT {
-    T first = T(0); ///< Its first t, in units of the direction's length.
-    T last = T(0);  ///< Its last t; above the first one.
+    T first = T(0); ///< The smallest t, in units of the direction's length.
+    T last = T(0);  ///< The largest t, above the first.
 };
 
-/// A medium; see the group \ref medium.
+/// A medium. Its functions are described at the top of this page, \ref medium.
 template <typename M>
 concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
                           typename M::Scalar cosine,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/media/phase_function.hpp
-/// \brief The phase function of Henyey and Greenstein: where fog scatters light.
+/// \brief The phase function of Henyey and Greenstein: into which directions fog
+/// scatters light.
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +16,24 @@ namespace ljus {
 /// \defgroup phase_function Phase functions
 /// \brief The directions of light that is scattered within a medium.
 ///
-/// A phase function is to a medium what the BRDF is to a surface, without a cosine: its
-/// integral over all directions is 1, so that it is the density of its own samples.
+/// A phase function describes how a medium scatters light, as a BRDF does for a
+/// surface. Unlike a BRDF it is not multiplied by a cosine. Its integral over all
+/// directions is 1, so that it can serve as a probability density.
 /// \{
 
 /// The phase function of Henyey and Greenstein \cite henyey1941,
 /// \f[ \varrho(\theta) =
 ///     \frac{1 - g^2}{4\pi\,(1 + g^2 - 2 g \cos\theta)^{3/2}} . \f]
-/// \param g       Mean cosine of the angle by which light is turned, within
-///                [-0.99, 0.99]: 0 scatters equally in all directions, above 0 mostly
-///                forwards.
-/// \param cosine  Of the angle between the directions of travel before and after.
-/// \return Per steradian: the phase function, and the density of
-///         sample_henyey_greenstein().
+/// \param g       Mean cosine of the angle theta by which light is turned, within
+///                [-0.99, 0.99]. 0 scatters equally in all directions; a positive g
+///                scatters mostly forwards.
+/// \param cosine  Cosine of theta, the angle between the directions of travel before
+///                and after scattering.
+/// \return Per steradian. This is also the density of sample_henyey_greenstein().
 // [henyey greenstein]
 template <std::floating_point T>
 [[nodiscard]] T henyey_greenstein(T g, T cosine) noexcept {
-    // As it is printed, 1 + g^2 - 2 g cos loses its digits around the peak.
+    // The printed form, 1 + g^2 - 2 g cos, loses its digits around the peak.
     const T narrow = T(1) - std::abs(g);
     const T off_peak = std::max(T(0), T(1) - std::copysign(cosine, g * cosine));
     const T square = narrow * narrow + T(2) * std::abs(g) * off_peak;
@@ -39,14 +41,13 @@ template <std::floating_point T>
 }
 // [henyey greenstein]
 
-/// Samples the direction of travel after a scattering, by henyey_greenstein().
-///
-/// The cumulative distribution is inverted. Its usual form divides by g; this one has
-/// no such division, and holds for g = 0.
-/// \param g       As for henyey_greenstein().
-/// \param travel  Unit direction of travel before.
+/// Samples the direction of travel after scattering, with the density
+/// henyey_greenstein(). The cumulative distribution is inverted in a form that also
+/// holds for g = 0.
+/// \param g       Mean cosine, as for henyey_greenstein().
+/// \param travel  Unit direction of travel before scattering.
 /// \param u       Point of the unit square.
-/// \return Unit direction of travel after.
+/// \return Unit direction of travel after scattering.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_henyey_greenstein(T g, const Vec3T<T>& travel,
                                                 const Vec2T<T>& u) noexcept {

@@ -18,15 +18,17 @@ namespace ljus {
 /// \addtogroup direct_light
 /// \{
 
-/// Methods for the direct light of a surface. They have the same mean, except for the
-/// bias of the closed form in penumbrae.
+/// A method for the direct light of a surface. All methods have the same mean, except
+/// that `analytic` has a bias in penumbrae.
 enum class DirectLight : std::uint8_t {
-    sampled,  ///< Shadow rays alone.
-    analytic, ///< On Lambertian surfaces, a lamp's closed form times the fraction that
-              ///< shadow rays find visible; shadow rays alone if there is no closed
-              ///< form. On other surfaces the same as mis.
-    mis ///< Shadow rays and a ray sampled by the material, with the weights of multiple
-        ///< importance sampling. For lamps as large as walls.
+    sampled, ///< Shadow rays alone.
+    /// On a Lambertian surface, the closed form of a lamp's unoccluded light, times the
+    /// fraction of it that shadow rays find visible. A light without a closed form is
+    /// sampled by shadow rays alone. On other surfaces the same as `mis`.
+    analytic,
+    /// Shadow rays, and a ray sampled by the material, with the weights of multiple
+    /// importance sampling. Best for lamps as large as walls.
+    mis
 };
 
 namespace detail {
@@ -34,12 +36,12 @@ namespace detail {
 /// A lamp whose form factor at a vertex is known.
 template <std::floating_point T>
 struct SeenLampT {
-    T form_factor = T(0);   ///< On the side of `wo`.
+    T form_factor = T(0);   ///< For a surface that faces the side of `wo`.
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
 };
 
 /// The form factor and the radiance of a light at a vertex.
-/// \return The lamp; nothing for lights without a form_factor().
+/// \return Nothing if the light has no form_factor().
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
                                                     const VertexT<T>& vertex) {
@@ -54,25 +56,30 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// The light of a lamp at a Lambertian surface if nothing occludes it.
-/// \return Radiance towards wo.
+/// The radiance that a Lambertian surface reflects from a lamp if nothing occludes the
+/// lamp, W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
                                  const LambertianT<T>& material) noexcept {
     return lamp.form_factor * material.albedo * lamp.radiance;
 }
 
-/// The light of one lamp at a Lambertian surface: its unoccluded light in closed form,
-/// times the fraction of it that shadow rays find visible,
+/// The radiance that a Lambertian surface reflects from one lamp: the unoccluded light
+/// in closed form, times the fraction of it that shadow rays find visible,
 ///
-/// \f[ \varrho\,L_e\,F \cdot \frac{\sum_i f_i V_i}{\sum_i f_i} \f]
+/// \f[ \varrho\,L_e\,F \cdot \frac{\sum_i f_i V_i}{\sum_i f_i} . \f]
 ///
-/// with \f$f_i\f$ the light of the i-th sample. If all of the lamp is visible, or none
-/// of it, there is no noise. In a penumbra the ratio of two random sums has a bias of
-/// the order of the variance of \f$f\f$ over the number of rays.
-/// \param rays      Number of shadow rays, at least 1.
-/// \param place     Called as place(i, cells) for a point of the i-th cell of the lamp.
-/// \return Radiance towards wo.
+/// Here \f$\varrho\f$ is the albedo, L_e the radiance of the lamp, F the form factor,
+/// f_i the unoccluded light of the i-th shadow ray, and V_i its visibility. Where the
+/// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
+/// of two random sums has a bias; it is of the order of the variance of f_i over the
+/// number of rays.
+/// \param lamp    From seen_lamp().
+/// \param rays    Number of shadow rays, at least 1.
+/// \param place   place(i, cells) returns a point of the unit square, in the i-th
+///                cell.
+/// \param counts  Counts the rays.
+/// \return Radiance towards `wo`, W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
@@ -94,12 +101,13 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
     return result;
 }
 
-/// The emission that a scattered ray has met, of a lamp or of the sky, with its weight
-/// of multiple importance sampling.
-/// \param path      The ray after next_vertex(); `previous` is where it was scattered.
-/// \param lamp      What it met; nothing if it has left the scene.
-/// \param reaching  The density of its direction, in fog times what passes.
-/// \param rays      Shadow rays per light.
+/// The emission of a lamp or of the sky that a scattered ray meets, with the weight of
+/// multiple importance sampling.
+/// \param path      The path after next_vertex(). It was scattered at path.previous.
+/// \param lamp      The vertex that the ray hit; nothing if the ray left the scene.
+/// \param reaching  The density of the ray's direction, per steradian. In fog it is
+///                  multiplied by passing().
+/// \param rays      Number of shadow rays per light.
 /// \return Throughput times radiance times the weight.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> met_light(const W& world, const PathStateT<T>& path,
@@ -122,11 +130,11 @@ template <AnyWorld W, std::floating_point T>
     return sum;
 }
 
-/// The same of a ray of its own, which is sampled by the material and carries no other
-/// light.
-/// \param rays      Shadow rays per light.
-/// \param context   Three numbers are drawn; the ray is counted.
-/// \return Radiance towards wo.
+/// Traces an extra ray, sampled by the material, and returns the result of met_light()
+/// for this ray. The ray carries no other light.
+/// \param rays     Number of shadow rays per light.
+/// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
+/// \return Radiance towards `wo`, W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -142,7 +150,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
         .previous = vertex.point.position,
         .depth = 1,
         .branch = std::uint64_t(1) << 44};
-    auto numbers = context.stream; // next_vertex() moves the copy
+    auto numbers = context.stream; // a copy, because next_vertex() advances it
     ++context.counts.shadow_rays;
     const auto lamp = next_vertex(world, path, numbers);
     T reaching = next->sample.pdf;
@@ -155,29 +163,29 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     return met_light(world, path, lamp, reaching, rays);
 }
 
-/// The sum of the channels of what a lamp would send to a vertex if nothing occluded
-/// it, up to a factor that is the same for all lamps.
+/// The unoccluded light of a lamp at a vertex: the form factor times the sum of the
+/// channels of the radiance. 0 for a light without a closed form.
 template <std::floating_point T>
 [[nodiscard]] T sent_by(const std::optional<SeenLampT<T>>& lamp) noexcept {
     if (!lamp) return T(0);
     return lamp->form_factor * (lamp->radiance.x + lamp->radiance.y + lamp->radiance.z);
 }
 
-/// How more than two lamps with a closed form share shadow rays at a vertex; with
-/// fewer, the comparison would take longer than the rays that it saves.
+/// Divides shadow rays among several lamps with a closed form, at one vertex.
 ///
-/// A lamp that sends half of all light or more gets `rays`; one that sends less gets
-/// fewer in proportion. A lamp with the share s of the light then adds s/2 of the
-/// variance of a single lamp that sends all of it, so that many lamps are no noisier
-/// than one. A lamp that would get less than one ray is faint. The faint lamps share
-/// some rays, for which they are chosen in proportion to the light that they send.
-/// Their light is all that they send together, times the fraction that these rays find
-/// visible: a ratio of two random sums, as in analytic_light().
+/// A lamp that sends at least half of the unoccluded light of all lamps gets `rays`
+/// shadow rays. A lamp that sends less gets fewer rays, in proportion. A lamp that
+/// would get less than one ray is *faint*. The faint lamps share some rays. These go to
+/// lamps that are chosen in proportion to their unoccluded light. The light of all
+/// faint lamps is their unoccluded light, times the fraction of it that these rays find
+/// visible; the bias is that of analytic_light().
 template <std::floating_point T>
 class SharedRaysT {
 public:
-    /// Asks all lamps that are not known to be hidden.
-    /// \param rays  To a lamp, at most.
+    /// Computes the unoccluded light of all lamps that are not known to be occluded.
+    /// \param rays      The largest number of rays to a lamp.
+    /// \param verdicts  Called with a light's index; returns its known visibility.
+    /// \param stream    One number is drawn.
     template <AnyWorld W, typename Stream, typename Verdicts>
     SharedRaysT(const W& world, const VertexT<T>& vertex, int rays,
                 const Verdicts& verdicts, Stream& stream)
@@ -188,7 +196,7 @@ public:
                 sent_by_all_ += sent_by(lamps_[light]);
             }
         if (!(sent_by_all_ > T(0))) return;
-        T faint = T(0); // what the faint ones send
+        T faint = T(0); // the unoccluded light of all faint lamps
         for (const auto& lamp : lamps_)
             if (is_faint(sent_by(lamp))) faint += sent_by(lamp);
         next_ = next_1d<T>(stream);
@@ -196,17 +204,19 @@ public:
             scale_ = std::ceil(T(2 * rays) * (faint / sent_by_all_)) / faint;
     }
 
-    /// A lamp that is not known to be hidden; nothing if it has no closed form.
+    /// The result of seen_lamp() for a light. Nothing if the light has no closed form
+    /// or is known to be occluded.
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
-    /// Whether a lamp is faint, and shares its rays with others.
-    /// \param by_it  What sent_by() says of it.
+    /// Whether a lamp is faint.
+    /// \param by_it  The result of sent_by() for the lamp.
     [[nodiscard]] bool is_faint(T by_it) const noexcept {
         return mean_rays(by_it) < T(1);
     }
-    /// The number of rays to the next lamp. The faint lamps together get the sum of
-    /// their mean numbers, rounded up.
+    /// The number of rays to the next lamp. The calls must follow the order of the
+    /// lights.
+    /// \param by_it  The result of sent_by() for the lamp.
     [[nodiscard]] int rays_to(T by_it) noexcept {
         if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
@@ -215,9 +225,10 @@ public:
         return int(whole);
     }
     /// Adds a faint lamp.
-    /// \param all      Its unoccluded light.
-    /// \param arrived  The part of it that its rays find.
-    /// \param rays     Rays to it; if 0, `arrived` does not matter.
+    /// \param all      The unoccluded light of the lamp.
+    /// \param arrived  The result of analytic_light(); ignored if `rays` is 0.
+    /// \param rays     The number of rays to the lamp.
+    /// \param by_it    The result of sent_by() for the lamp.
     void add(const RgbT<T>& all, const RgbT<T>& arrived, int rays, T by_it) noexcept {
         all_ += all;
         if (rays == 0) return;
@@ -234,7 +245,7 @@ public:
     }
 
 private:
-    // 0/0 where nothing is sent: a ray to each.
+    // If no lamp sends light, 0/0 gives NaN, and min() gives 1: `rays` for each lamp.
     [[nodiscard]] T mean_rays(T by_it) const noexcept {
         return std::min(T(1), T(2) * by_it / sent_by_all_) * T(rays_);
     }
@@ -245,7 +256,7 @@ private:
     RgbT<T> all_{T(0)}, sent_{T(0)}, arrived_{T(0)};
 };
 
-/// Unknown visibility of all lights: every shadow ray is cast.
+/// Verdicts by which every shadow ray is cast.
 struct NoVerdicts {
     /// Verdict::unknown for every light.
     constexpr Verdict operator()(std::size_t) const noexcept {
@@ -253,7 +264,11 @@ struct NoVerdicts {
     }
 };
 
-/// The place of the i-th ray in the cells of a light: the rays of a pixel share `u`.
+/// The point of the unit square for the i-th ray to a light.
+/// \param i        The number of the ray.
+/// \param cells    The cells of the unit square, one for each ray.
+/// \param u        Position within a cell; the same for all rays of a vertex.
+/// \param context  Its stream gives a key for random numbers.
 template <std::floating_point T, typename Context>
 [[nodiscard]] Vec2T<T> place_of_ray(int i, const Strata& cells, const Vec2T<T>& u,
                                     const Context& context) noexcept {
@@ -261,8 +276,12 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the light of one light, by shadow rays alone.
-/// \param u  The position in its cells.
+/// Adds the radiance from one light: the mean of several shadow rays.
+/// \param sum      The sum of radiance towards `wo`.
+/// \param u        Position within each cell of the light.
+/// \param rays     Number of rays, at least 1.
+/// \param mis      How light is divided between these rays and a scattered ray.
+/// \param context  Its counters count the rays.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void
 add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
@@ -277,8 +296,8 @@ add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
     }
 }
 
-/// The light of all lights at a Lambertian surface: by the closed form of each light
-/// that has one, by shadow rays of all others.
+/// The radiance that a Lambertian surface reflects from all lights: by analytic_light()
+/// for each light with a closed form, by shadow rays for all other lights.
 template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts>
 [[nodiscard]] RgbT<T> analytic_lights(const W& world, const VertexT<T>& vertex,
                                       const LambertianT<T>& material, int rays,
@@ -330,25 +349,28 @@ template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts
 /// Method and number of rays for direct light.
 struct DirectLightSettings {
     DirectLight how = DirectLight::sampled; ///< The method.
-    int rays = 1; ///< Shadow rays per light, at least 1; fewer to faint lamps in closed
-                  ///< form, or none, if others stand for them.
-    Lobes next = Lobes::none; ///< The lobes of the path's next ray, if that is to bring
-                              ///< the light of found_light(), by met_light(); none: a
-                              ///< ray of its own brings it. Not in fog.
+    /// Number of shadow rays per light, at least 1. DirectLight::analytic casts fewer
+    /// rays to lamps that send little light.
+    int rays = 1;
+    /// Multiple importance sampling needs a scattered ray. If this is Lobes::none, an
+    /// extra ray is traced. Otherwise the next ray of the path, sampled from these
+    /// lobes, serves as the scattered ray, and the caller must add its light by
+    /// met_light(). Must be Lobes::none in fog.
+    Lobes next = Lobes::none;
 };
 
-/// The light of all lights at a surface.
+/// The radiance that a surface reflects from all lights.
 /// \param world     The closed scene.
 /// \param vertex    The surface.
-/// \param material  Its material.
-/// \param settings  Method and rays. n rays divide each light into n cells.
-/// \param context   Draws two numbers per light: the position in its cells, the same in
-///                  all of them; the rays of a pixel stratify a cell. Among faint lamps
-///                  one more chooses those that get rays. Rays are counted.
-///                  In shadow as many are counted as for a surface that faces the whole
-///                  light.
+/// \param material  The material of the surface.
+/// \param settings  Method and number of rays. n rays divide each light into n cells,
+///                  and one ray goes to each cell.
+/// \param context   Two numbers are drawn for each light that gets rays, one more among
+///                  several lamps with a closed form, and three more for an extra ray.
+///                  Rays are counted. For a light with Verdict::shadow, n skipped rays
+///                  are counted.
 /// \param verdicts  Called with a light's index; returns its known visibility.
-/// \return Radiance towards wo.
+/// \return Radiance towards `wo`, W/(m^2 sr).
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T, Material M, typename Context,
           typename Verdicts = detail::NoVerdicts>
@@ -358,7 +380,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         Context& context, Verdicts verdicts = {}) {
     const DirectLight how = settings.how;
     const int rays = settings.rays;
-    // Only gloss shares its ray; a matt surface asks nothing while the program runs.
+    // A matt surface never uses the path's next ray. This is decided at compile time.
     const Lobes next = std::same_as<M, LambertianT<T>> ? Lobes::none : settings.next;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)

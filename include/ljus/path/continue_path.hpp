@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/continue_path.hpp
-/// \brief How a path continues from a vertex, with radiance or flux.
+/// \brief Continues a path from a vertex, for radiance or flux.
 
 #include "ljus/math/random.hpp"
 #include "ljus/path/next_vertex.hpp"
@@ -12,38 +12,39 @@ namespace ljus {
 /// \defgroup continue_path Continuing a path
 /// \brief Section 3.2.4: reflected, refracted and indirect rays.
 ///
-/// A surface may have two normals, as where smooth normals meet flat triangles
-/// \cite veach1997. The geometric normal decides the side of every direction; the
-/// shading normal sets the frame of the material. Where they disagree about the side of
-/// a direction:
+/// A surface may have two normals, for example a triangle with interpolated normals
+/// \cite veach1997. The geometric normal decides on which side of the surface a
+/// direction lies. The shading normal is the z axis of the material's frame. The table
+/// gives the rule for a direction about whose side the two normals disagree:
 ///
-/// | direction                        | rule                                          |
-/// |----------------------------------|-----------------------------------------------|
-/// | wo of a camera path              | the frame is around the geometric normal      |
-/// | wo of a photon                   | the same; non-specular lobes absorb it        |
-/// | of a shadow ray, a stored photon | no light                                      |
-/// | sampled, of a mirror or of glass | sampled again, around the geometric normal    |
-/// | sampled, of any other lobe       | the path ends                                 |
+/// | direction                         | rule                                         |
+/// |-----------------------------------|----------------------------------------------|
+/// | wo of a camera path               | the geometric normal becomes the z axis      |
+/// | wo of a photon                    | the same, and non-specular lobes absorb it   |
+/// | of a shadow ray, a stored photon  | there is no light                            |
+/// | sampled, from a mirror or glass   | sampled again around the geometric normal    |
+/// | sampled, from any other lobe      | the path ends                                |
 /// \{
 
 /// A scattered direction.
 template <std::floating_point T>
 struct ScatteredT {
-    BsdfSampleT<T> sample{}; ///< In the frame; z of `wi` gives the side.
+    BsdfSampleT<T> sample{}; ///< In the shading frame; z of its `wi` gives the side.
     Vec3T<T> wi{T(0)};       ///< The direction in the world.
 };
 
-/// Samples a direction and respects both normals of the surface.
-///
-/// The flux of a photon is multiplied by the adjoint correction
+/// Samples a direction and respects both normals of the surface. The flux of a photon
+/// is multiplied by the factor
 /// \f[ \frac{|\omega_o \cdot N_s|\,|\omega_i \cdot N_g|}
 ///          {|\omega_o \cdot N_g|\,|\omega_i \cdot N_s|} \f]
-/// (Veach's Eq. 5.19; \f$\omega_o\f$ points back along the photon's path). Without it,
-/// camera paths and photons would see different scenes.
+/// of Veach's Eq. 5.19, where N_s is the shading normal, N_g the geometric normal,
+/// \f$\omega_o\f$ the direction back along the path of the photon, and \f$\omega_i\f$
+/// the sampled direction. With this factor, photons and camera paths find the same
+/// light.
 /// \param vertex     The surface.
-/// \param material   Its material at the vertex; see visit_material_at().
+/// \param material   The material at the vertex; see visit_material_at().
 /// \param u          Point of [0,1)^3.
-/// \param transport  What the path carries.
+/// \param transport  The quantity that the path carries.
 /// \param which      The lobes to sample.
 /// \return The direction; nothing if the path ends.
 /// \cite veach1997
@@ -78,10 +79,11 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 
 namespace detail {
 
-/// The absorption on the side of `wi` at a surface that scatters light: `medium` if
-/// `wo` lies on the same side, otherwise that of the material's interior, or none
-/// outside.
-/// \param medium    Absorption on the side of `wo`, per scene unit.
+/// The absorption coefficient on the side of `wi` of a surface. If `wi` and `wo` lie on
+/// the same side, it is `medium`. Otherwise it is that of the material inside the body,
+/// and 0 outside.
+/// \param medium    Absorption coefficient on the side of `wo`, per scene unit.
+/// \param wo, wi    Unit vectors in the frame of the surface.
 /// \return Per scene unit.
 template <typename M, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
@@ -90,15 +92,16 @@ template <typename M, std::floating_point T>
     return wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)};
 }
 
-/// Whether light leaves a body along `wi`. Another body may surround it, which
-/// medium_at() finds and medium_beyond() does not.
+/// Whether a path leaves a body along `wi`. If another body surrounds this body,
+/// medium_beyond() is wrong, and medium_at() must find the absorption.
 template <typename M, std::floating_point T>
 [[nodiscard]] bool leaves_body(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);
 }
 
-/// Continues a path in a given direction.
-/// \param path      Receives its new ray, throughput and medium.
+/// Continues a path in a sampled direction.
+/// \param path  The path; receives the new ray, throughput and medium.
+/// \param wi    The sampled direction in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
@@ -118,21 +121,21 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 
 } // namespace detail
 
-/// Continues a path in a direction sampled by the material.
-/// \param path       Receives its new ray, throughput and medium.
+/// Continues a path in a direction that the material samples.
+/// \param path       The path; receives the new ray, throughput and medium.
 /// \param vertex     The vertex.
-/// \param material   Its material.
-/// \param transport  Radiance from the camera, or flux.
+/// \param material   The material at the vertex.
+/// \param transport  Whether the path carries radiance or flux.
 /// \param which      The lobes to sample.
 /// \param stream     Three numbers are drawn.
-/// \return False if the path ends because its light is absorbed.
+/// \return False if the path ends here. The path is then unchanged.
 /// \report{Section 3.2.4}
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
                                  Stream& stream) {
     const Vec3T<T> u = next_3d<T>(stream);
-    if (!vertex.smooth) { // as scatter(), without copies
+    if (!vertex.smooth) { // the same as scatter(), without copies
         const auto next = sample(material, vertex.wo, u, transport, which);
         if (!next) return false;
         detail::follow(path, vertex, material, *next, to_world(vertex.frame, next->wi));
@@ -144,9 +147,13 @@ template <std::floating_point T, Material M, StreamLike Stream>
     return true;
 }
 
-/// Splits a camera path at a boundary: the path is reflected, a copy of it refracted.
-/// \return The copy, with its own random numbers; nothing if there is only one
-///         direction, and then the path is unchanged.
+/// Splits a camera path at a boundary: the path is reflected, and a copy of it is
+/// refracted.
+/// \param path      The path; receives the reflected ray.
+/// \param vertex    The vertex.
+/// \param material  The material at the vertex.
+/// \return The copy, with its own random numbers. Nothing if the material does not
+///         split paths or if only one direction exists; then the path is unchanged.
 /// \report{Section 3.2.5}
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
@@ -156,7 +163,7 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         if (!both || vertex.smooth) return std::nullopt;
         const auto& [reflected, refracted] = *both;
         PathStateT<T> other = path;
-        // A path splits at most once per depth; one bit per depth identifies the
+        // A path splits at most once per depth. One bit per depth identifies the
         // branch.
         other.branch += std::uint64_t(1) << (16 + path.depth % 32);
         detail::follow(other, vertex, material, refracted,

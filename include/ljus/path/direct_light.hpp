@@ -12,36 +12,37 @@ namespace ljus {
 /// \brief Section 3.2.3: a shadow ray toward each light source.
 /// \{
 
-/// The known visibility of a light from a surface, before a ray is cast.
+/// What is known of the visibility of a light from a surface before a shadow ray is
+/// cast.
 enum class Verdict : std::uint8_t {
-    unknown, ///< A shadow ray must find V.
-    lit,     ///< Unoccluded: V = 1.
-    shadow   ///< Fully occluded: V = 0.
+    unknown, ///< Nothing: a shadow ray must be cast.
+    lit,     ///< The light is fully visible.
+    shadow   ///< The light is fully occluded.
 };
 
-/// Weights of multiple importance sampling \cite veach1997. They divide light that both
-/// a shadow ray and a scattered ray can find between the two.
+/// The weights of multiple importance sampling \cite veach1997, for light that both a
+/// shadow ray and a scattered ray can find.
 enum class MisHeuristic : std::uint8_t {
     balance,    ///< Proportional to the pdf.
     power,      ///< Proportional to the square of the pdf.
-    shadow_rays ///< The shadow ray takes all: next-event estimation alone.
+    shadow_rays ///< 1 for the shadow ray: next-event estimation alone.
 };
 
-/// The balance heuristic: the weight of the first of two strategies that could have
-/// made the same sample \cite veach1997.
-/// \param pdf    The strategy that made it.
-/// \param other  The other strategy.
-/// \return In [0, 1].
+/// The balance heuristic: the weight of a sample that two strategies could have made
+/// \cite veach1997.
+/// \param pdf    The density of the strategy that made the sample.
+/// \param other  The density of the other strategy.
+/// \return pdf/(pdf + other), in [0, 1].
 // [heuristics]
 template <std::floating_point T>
 [[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
-    // pdf / (pdf + other) would be NaN for two infinities.
+    // The sum of two large densities may be infinite.
     return pdf > other ? T(1) / (T(1) + other / pdf)
                        : pdf / other / (T(1) + pdf / other);
 }
 
-/// The power heuristic: as balance_heuristic(), with squared densities, which favours
-/// the better of the two strategies \cite veach1995.
+/// The power heuristic: balance_heuristic() with squared densities. It favours the
+/// strategy with the larger density \cite veach1995.
 template <std::floating_point T>
 [[nodiscard]] constexpr T power_heuristic(T pdf, T other) noexcept {
     // The square of a ratio does not overflow.
@@ -50,25 +51,32 @@ template <std::floating_point T>
 }
 // [heuristics]
 
-/// The weight of the first of two strategies by a heuristic, balance or power; in
-/// [0, 1].
+/// The weight of a sample by MisHeuristic::power or, for any other value, by
+/// MisHeuristic::balance.
+/// \param heuristic  The heuristic.
+/// \param pdf        The density of the strategy that made the sample.
+/// \param other      The density of the other strategy.
+/// \return In [0, 1].
 template <std::floating_point T>
 [[nodiscard]] constexpr T mis_weight(MisHeuristic heuristic, T pdf, T other) noexcept {
     return heuristic == MisHeuristic::power ? power_heuristic(pdf, other)
                                             : balance_heuristic(pdf, other);
 }
 
-/// The division of light between a shadow ray and a scattered ray.
+/// How light is divided between a shadow ray and a scattered ray.
 template <std::floating_point T>
 struct MisT {
-    MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< Method.
-    T factor = T(1); ///< Factor of the sample's pdf: the number of shadow rays, or the
-                     ///< probability of choosing the light.
+    MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< The weights.
+    /// Factor of the pdf of a shadow ray: the number of shadow rays, or the probability
+    /// of choosing the light.
+    T factor = T(1);
     Lobes lobes = Lobes::all; ///< The lobes that the scattered ray samples.
 };
 
-/// The density with which a shadow ray from `from` would choose the point of a lamp
-/// that a path hit; per steradian.
+/// The density, per steradian, with which a shadow ray would choose a point of a lamp.
+/// \param world  The closed scene.
+/// \param from   The lit point, from which the shadow ray would start.
+/// \param lamp   The vertex of a path that hit the lamp.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T pdf_of_lamp_point(const W& world, const Vec3T<T>& from,
                                   const VertexT<T>& lamp) {
@@ -80,11 +88,11 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// What a light that fills the sky sends from one direction.
+/// A light that fills the sky, as seen in one direction.
 template <std::floating_point T>
 struct SkyT {
     RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
-    T pdf = T(0); ///< Density of the direction for a shadow ray to it, per steradian.
+    T pdf = T(0); ///< Density of the direction for a shadow ray, per steradian.
 };
 
 namespace detail {
@@ -95,8 +103,11 @@ inline constexpr bool has_sky = W::any_light([]<typename L>() { return FillsSky<
 
 } // namespace detail
 
-/// The sky of one light, as seen by a ray that leaves the scene in a unit direction. It
-/// is black for a light that does not fill the sky.
+/// One light as seen by a ray that leaves the scene.
+/// \param world      The closed scene.
+/// \param light      The index of the light.
+/// \param direction  Unit direction of the ray.
+/// \return Radiance and density; both are 0 for a light that does not fill the sky.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SkyT<T> sky_of(const W& world, std::uint32_t light,
                              const Vec3T<T>& direction) {
@@ -108,9 +119,10 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The radiance of the sky, W/(m^2 sr), summed over all lights, for a ray that leaves
-/// the scene in a unit direction. It costs nothing for a scene that lists no such
-/// light.
+/// The radiance of the sky: the sum over all lights that fill the sky.
+/// \param world      The closed scene.
+/// \param direction  Unit direction of a ray that leaves the scene.
+/// \return W/(m^2 sr).
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> sky_radiance(const W& world, const Vec3T<T>& direction) {
     RgbT<T> sum{T(0)};
@@ -122,22 +134,22 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The mean of the channels of fog's transmittance: about the probability that fog lets
-/// a path pass. A scattered ray finds a light less often than a shadow ray by this
-/// factor, and its weight is smaller by the same factor.
+/// The mean of the channels of the transmittance of fog. This is about the probability
+/// that fog lets a scattered ray pass. For the weights of multiple importance sampling,
+/// the density of a scattered ray is multiplied by this mean.
 template <std::floating_point T>
 [[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
     return (transmittance.x + transmittance.y + transmittance.z) / T(3);
 }
 
-/// The light of one sampled point of a light, without and with occlusion.
+/// The radiance that a vertex reflects from one sampled point of a light.
 template <std::floating_point T>
 struct LightShareT {
-    RgbT<T> sent{T(0)};    ///< Unoccluded.
-    RgbT<T> arrived{T(0)}; ///< After occlusion and absorption.
+    RgbT<T> sent{T(0)};    ///< Without occlusion and absorption.
+    RgbT<T> arrived{T(0)}; ///< With occlusion and absorption.
 };
 
-/// The result of direct_light(), and its value without occlusion.
+/// The result of direct_light(), with and without occlusion.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] LightShareT<T> light_share(const W& world, std::uint32_t light,
                                          const VertexT<T>& vertex, const M& material,
@@ -183,20 +195,22 @@ template <AnyWorld W, std::floating_point T, Material M>
 
 } // namespace detail
 
-/// The light of one light at a surface, by one shadow ray:
-/// \f$ f\,|\cos|\,L_e\,V / p \f$.
+/// The radiance that a surface reflects from one light, by one shadow ray:
+/// \f$ f\,|\cos\theta|\,L_e\,V / p \f$. Here f is the BSDF, theta the angle of the ray
+/// to the normal, L_e the emitted radiance, V the visibility, and p the density of the
+/// ray per steradian.
 /// \param world     The closed scene.
 /// \param light     The index of the light.
 /// \param vertex    The surface.
-/// \param material  Its material.
+/// \param material  The material of the surface.
 /// \param u         Point of the unit square; chooses the point of the light.
-/// \param mis       The weight that a scattered ray takes.
-/// \param counts    Counts the ray; none is cast if the surface cannot reflect.
-/// \param verdict   The known visibility; Verdict::lit casts no ray.
-/// \return Radiance towards wo.
+/// \param mis       How the light is divided between this ray and a scattered ray.
+/// \param counts    Counts the ray. No ray is cast if the surface cannot reflect it.
+/// \param verdict   The known visibility. With Verdict::lit no ray is cast.
+/// \return Radiance towards `wo`, W/(m^2 sr).
 /// \report{Section 3.2.3}
-/// \erratum{The report's program divides the sum over the lights by their number, so
-///          that a second lamp dims the first.}
+/// \erratum{The report's program divides the sum over the lights by their number. A
+/// second lamp therefore dims the first.}
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> direct_light(const W& world, std::uint32_t light,
                                    const VertexT<T>& vertex, const M& material,
@@ -206,13 +220,13 @@ template <AnyWorld W, std::floating_point T, Material M>
         .arrived;
 }
 
-/// The light of one light, chosen by power, at a vertex of a path: by a shadow ray,
-/// with its weight of multiple importance sampling.
+/// The direct light at a vertex of a path, by one shadow ray to one light. The light is
+/// chosen in proportion to its power.
 /// \param world      The closed scene, with at least one light.
 /// \param path       The path.
 /// \param vertex     The surface.
-/// \param material   Its material.
-/// \param heuristic  The weights.
+/// \param material   The material of the surface.
+/// \param heuristic  The weights of multiple importance sampling.
 /// \param context    Three numbers are drawn; the ray is counted.
 /// \return Throughput times radiance times the weight.
 /// \report{Section 3.2.3}

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/fog_path.hpp
-/// \brief Paths through fog: where it scatters them, and the light that arrives there.
+/// \brief Paths through fog: where fog scatters them, and the light that arrives there.
 
 #include <algorithm>
 #include <cmath>
@@ -15,62 +15,64 @@
 namespace ljus {
 
 /// \defgroup fog_path Paths through fog
-/// \brief Between two surfaces a path may be scattered by fog.
+/// \brief Paths that fog scatters between two surfaces.
 /// \{
 
-/// A camera path between two surfaces.
+/// The segment of a camera path between two surfaces.
 template <std::floating_point T>
 struct FogSegmentT {
-    RayT<T> ray{};            ///< Of unit length; its t_max is the next surface.
-    RgbT<T> throughput{T(1)}; ///< Of the path at its start.
+    RayT<T> ray{}; ///< A ray with a unit direction; t_max is at the next surface.
+    RgbT<T> throughput{T(1)}; ///< Throughput of the path at the start of the segment.
 };
 
 /// A point of a path where fog scatters it.
 template <std::floating_point T>
 struct FogVertexT {
-    SurfacePointT<T> point{};    ///< Its position; the normal is 0.
+    SurfacePointT<T> point{};    ///< The position; the normal is 0.
     Vec3T<T> travel{T(0)};       ///< Unit direction in which the path arrives.
     std::uint32_t medium = 0;    ///< Number of the medium; see visit_fog().
     T distance = T(0);           ///< From the start of the segment, in scene units.
-    RgbT<T> transmittance{T(1)}; ///< Of the segment up to here.
+    RgbT<T> transmittance{T(1)}; ///< From the start of the segment to this point.
     T time = T(0);               ///< Time of the path, in [0, 1].
 };
 
 /// Refuses a scene with both fog and thin surfaces.
-/// \throws std::invalid_argument  with a remedy.
+/// \throws std::invalid_argument  for such a scene.
 template <AnyWorld W>
 void require_no_film_in_fog([[maybe_unused]] const W& world) {
     if constexpr (W::lists_fog && detail::lists_thin_surfaces<W>)
         if (world.has_fog() && detail::has_thin_surfaces(world))
             throw std::invalid_argument(
-                "the scene has both fog and thin surfaces, which paths in fog do not "
-                "pass; remove the fog, or all soap films and thin glass.");
+                "the scene has both fog and thin surfaces, but paths in fog cannot "
+                "pass "
+                "thin surfaces; remove the fog, or all soap films and thin glass.");
 }
 
-/// Ways to find the light that a single scattering brings to a ray. All have the same
-/// mean.
+/// The points of a segment from which shadow rays find the light that fog scatters. All
+/// choices have the same mean.
 enum class FogLight : std::uint8_t {
-    both,        ///< Both, with the balance heuristic between them.
-    flight,      ///< Shadow rays from where the path is scattered, by its free flight.
-    equi_angular ///< From points chosen by equi-angular sampling; by flight for lights
-                 ///< that are far away.
+    both,   ///< Both kinds of points, weighted by the balance heuristic.
+    flight, ///< The points where fly() scatters the path.
+    /// Points of equi-angular sampling. For distant lights, those of fly().
+    equi_angular
 };
 
-/// Calls f(medium) with one medium of a world, in its own type.
+/// Calls f(medium) with one medium of a scene.
 /// \param world   The closed scene.
-/// \param number  The number of the medium: types in the order of their list.
-/// \param f       Called once, if there is such a medium.
+/// \param number  The number of the medium. Media are counted type by type, in the
+///                order in which the scene lists the types.
+/// \param f       Called once if there is such a medium, otherwise not.
 template <AnyWorld W, typename F>
 void visit_fog(const W& world, std::uint32_t number, F&& f) {
     const auto visit = [&](const auto& list) {
         if (number < list.size()) f(list[number]);
-        number -= static_cast<std::uint32_t>(list.size()); // wraps once it was found
+        number -= static_cast<std::uint32_t>(list.size()); // wraps after f was called
     };
     detail::each_array(world.media(), visit);
 }
 
-/// Calls f(number, medium, span) for each medium on a segment, with the part of the ray
-/// in it.
+/// Calls f(number, medium, span) for each medium that a ray crosses. The span is the
+/// part of the ray in the medium.
 template <AnyWorld W, std::floating_point T, typename F>
 void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
     std::uint32_t number = 0;
@@ -85,16 +87,16 @@ void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
 
 namespace detail {
 
-/// What became of a path on its way to the next surface.
+/// The fate of a path on its way to the next surface.
 enum class InFog : std::uint8_t { crossed, scattered, ended };
 
-/// The probabilities of choosing a channel: the path's throughput.
+/// The probabilities of choosing a channel. They are proportional to the throughput.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> channel_probabilities(const RgbT<T>& throughput) noexcept {
     return throughput / (throughput.x + throughput.y + throughput.z);
 }
 
-/// The vertex of a segment at a distance from its start.
+/// The point of a segment at a distance from its start, as a vertex in a given medium.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] FogVertexT<T> fog_vertex(const W& world, const FogSegmentT<T>& segment,
                                        std::uint32_t medium, T distance) {
@@ -109,7 +111,7 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The density with which fly() scatters a path at a vertex, per scene unit.
-/// \param extinction  Of the vertex's medium.
+/// \param extinction  Extinction coefficient of the vertex's medium, per scene unit.
 template <std::floating_point T>
 [[nodiscard]] T pdf_flight(const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,
                            const RgbT<T>& extinction) noexcept {
@@ -122,19 +124,20 @@ template <std::floating_point T>
 /// Samples the free flight of a path: whether fog scatters it before the next surface,
 /// and where.
 ///
-/// In a medium of extinction \f$\sigma\f$ the length of a flight has the density
-/// \f$\sigma e^{-\sigma t}\f$. In coloured fog this differs between the channels. One
-/// of them is chosen in proportion to the throughput, and the path is divided by the
-/// mean density of all channels, the balance heuristic \cite wilkie2014; so no channel
-/// is ever divided by a density much smaller than its own. Each medium on the way is
-/// asked for a flight, and the shortest counts.
-/// \param world       The closed scene.
-/// \param segment     The segment, outside all bodies.
-/// \param path        The path at the end of the segment. Its throughput is multiplied
-///                    by what the fog does, and the pdf of its direction by the
-///                    fraction of light that passes.
-/// \param stream      One number is drawn, and one for each medium on the segment.
-/// \return Where it is scattered; nothing if it reaches the surface.
+/// In a medium of extinction \f$\sigma\f$ the length t of a flight has the density
+/// \f$\sigma e^{-\sigma t}\f$. In coloured fog this density differs between the
+/// channels. One channel is chosen in proportion to the throughput, and the throughput
+/// is divided by the mean density of all channels, which is the balance heuristic
+/// \cite wilkie2014. If several media lie on the segment, a flight is sampled for each,
+/// and the shortest counts.
+/// \param world    The closed scene.
+/// \param segment  The segment, outside all bodies.
+/// \param path     The path at the end of the segment. Its throughput is multiplied by
+///                 the weight of the flight. If the path reaches the surface, its pdf
+///                 is multiplied by the mean transmittance.
+/// \param stream   One number is drawn, and one for each medium on the segment.
+/// \return The vertex where fog scatters the path; nothing if the path reaches the
+///         surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<FogVertexT<T>> fly(const W& world,
                                                const FogSegmentT<T>& segment,
@@ -166,16 +169,16 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     // [fly]
 }
 
-/// The light of one light that fog scatters towards a path, by one shadow ray.
+/// The radiance from one light that fog scatters back along a path, by one shadow ray.
 /// \param world   The closed scene.
 /// \param light   The index of the light.
-/// \param vertex  Where the fog is.
-/// \param medium  The vertex's medium.
+/// \param vertex  The point in fog.
+/// \param medium  The medium of the vertex.
 /// \param u       Point of the unit square; chooses the point of the light.
-/// \param mis     The weight that a scattered ray takes.
+/// \param mis     How light is divided between this ray and a scattered ray.
 /// \param counts  Counts the ray.
-/// \return Radiance against the direction of travel, without the coefficient of
-///         scattering.
+/// \return The radiance that goes back along the path, divided by the scattering
+///         coefficient.
 template <AnyWorld W, std::floating_point T, Medium M>
 [[nodiscard]] RgbT<T> fog_light(const W& world, std::uint32_t light,
                                 const FogVertexT<T>& vertex, const M& medium,
@@ -195,16 +198,16 @@ template <AnyWorld W, std::floating_point T, Medium M>
     return weight * f * sampled->weight * visible;
 }
 
-/// Equi-angular sampling of a segment for one light: one of the media on it is chosen,
-/// each as often as the others, then a point of it.
+/// Equi-angular sampling of a segment for one light. One of the media on the segment is
+/// chosen, all with the same probability, and then a point in this medium.
 template <std::floating_point T>
 struct FogAimT {
-    std::uint32_t media = 0; ///< How many media are on the segment.
+    std::uint32_t media = 0; ///< Number of media on the segment.
     Vec3T<T> light{T(0)};    ///< A point of the light.
 };
 
 /// Prepares equi-angular sampling of a segment.
-/// \return Nothing without fog on the segment, or for a light that is far away.
+/// \return Nothing if there is no fog on the segment, or if the light is distant.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<FogAimT<T>> aim_fog(const W& world, std::uint32_t light,
                                                 const FogSegmentT<T>& segment) {
@@ -222,7 +225,8 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The density of equi-angular sampling at a vertex, per scene unit; 0 without it.
+/// The density of equi-angular sampling at a vertex, per scene unit; 0 if `aim` is
+/// empty.
 template <Medium M, std::floating_point T>
 [[nodiscard]] T pdf_aimed(const std::optional<FogAimT<T>>& aim,
                           const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,
@@ -236,14 +240,14 @@ template <Medium M, std::floating_point T>
 
 } // namespace detail
 
-/// The light of one light, chosen by power, at a vertex that fly() found: by a shadow
-/// ray, with its weight beside equi-angular sampling.
+/// The radiance from one light that fog scatters at a vertex from fly(), by one shadow
+/// ray. The light is chosen in proportion to its power.
 /// \param world       The closed scene, with at least one light.
 /// \param segment     The segment.
-/// \param vertex      Of fly().
-/// \param throughput  As fly() left it.
-/// \param heuristic   The weights beside scattered rays that meet the light.
-/// \param how         The weights beside equi-angular sampling.
+/// \param vertex      The vertex from fly().
+/// \param throughput  The throughput of the path after fly().
+/// \param heuristic   The weights of this ray and of a scattered ray.
+/// \param how         The weights of this vertex and of equi-angular sampling.
 /// \param context     Three numbers are drawn; the ray is counted.
 /// \return Throughput times radiance times the weights.
 template <AnyWorld W, std::floating_point T, typename Context>
@@ -268,17 +272,15 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return throughput * light / chosen.probability;
 }
 
-/// What fog on a segment scatters towards the path from one light, chosen by power: a
-/// shadow ray starts at a point from equi-angular sampling \cite kulla2012.
-///
-/// Flights favour points near the start of the segment, and in thin fog most of them
-/// reach the surface; equi-angular sampling favours points near the light.
+/// The radiance from one light that fog scatters on a segment, by one shadow ray. The
+/// light is chosen in proportion to its power. The ray starts at a point from
+/// equi-angular sampling, which favours points near the light \cite kulla2012.
 /// \param world      The closed scene, with at least one light.
 /// \param segment    The segment, outside all bodies.
-/// \param heuristic  The weights beside scattered rays that meet the light.
-/// \param how        The weights beside free flights.
+/// \param heuristic  The weights of this ray and of a scattered ray.
+/// \param how        The weights of this point and of the vertices from fly().
 /// \param context    Five numbers are drawn; the ray is counted.
-/// \return Throughput times radiance times the weights.
+/// \return Throughput times radiance times the weights; 0 for FogLight::flight.
 // [aimed light]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> aimed_light(const W& world, const FogSegmentT<T>& segment,
@@ -308,9 +310,9 @@ template <AnyWorld W, std::floating_point T, typename Context>
 // [aimed light]
 
 /// Continues a path from a point in fog, in a direction sampled by the phase function.
-/// \param path    Receives its new ray; its throughput stays.
-/// \param vertex  Of fly().
-/// \param medium  The vertex's medium.
+/// \param path    The path; receives the new ray. The throughput does not change.
+/// \param vertex  The vertex from fly().
+/// \param medium  The medium of the vertex.
 /// \param stream  Two numbers are drawn.
 template <std::floating_point T, Medium M, StreamLike Stream>
 void scatter_in_fog(PathStateT<T>& path, const FogVertexT<T>& vertex, const M& medium,

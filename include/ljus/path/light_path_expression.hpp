@@ -15,24 +15,26 @@
 namespace ljus {
 
 /// \defgroup light_path_expression Classes of light paths
-/// \brief Eq. 1 is a sum over paths; a renderer is characterised by those it leaves
-/// out. Chapter: \ref ch_light_transport.
+/// \brief Regular expressions for sets of light paths. Chapter:
+/// \ref ch_light_transport.
 ///
-/// A path is a word: E is the eye, D a diffuse or glossy surface, S a mirror or a
-/// boundary of glass, and L the light. A class of paths is a regular expression over
-/// these letters, from the eye to the light; Heckbert \cite heckbert1990 writes them in
-/// the opposite order.
+/// A path is written as a word: E is the eye, D a diffuse or glossy surface, S a mirror
+/// or a boundary of glass, and L the light. A class of paths is a regular expression
+/// over these letters. It begins at the eye and ends at the light; Heckbert
+/// \cite heckbert1990 writes the letters in the opposite order.
 /// \{
 
-/// A compiled class of paths: Glushkov's automaton, in which each letter of the
-/// expression is a state and a bit.
+/// A compiled class of paths: Glushkov's automaton. State 0 is the start. Each letter
+/// of the expression is one more state. A set of states has one bit per state.
 struct LightPathExpression {
-    std::array<std::uint64_t, 64> follow{}; ///< Successors by state; 0: start.
+    std::array<std::uint64_t, 64> follow{}; ///< For each state, the states after it.
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
-    std::uint64_t last = 0;        ///< Accepting states.
+    std::uint64_t last = 0;        ///< The set of accepting states.
 
-    /// The possible states after one more letter of a path: E, D, S or L. There is one
-    /// bit per state; none is set if the path is not in the class.
+    /// The set of possible states after one more letter of a path.
+    /// \param states  The set of possible states so far.
+    /// \param next    The next letter: E, D, S or L.
+    /// \return Empty if no path of the class begins with these letters.
     [[nodiscard]] constexpr std::uint64_t step(std::uint64_t states,
                                                char next) const noexcept {
         std::uint64_t possible = 0;
@@ -50,7 +52,7 @@ struct LightPathExpression {
 
 namespace detail {
 
-// Parses an expression, and records which letter may follow which.
+// Parses an expression, and records which letters may follow each letter.
 struct LightPathExpressionReader {
     // A subexpression: its first and last states, and whether it may be empty.
     struct Part {
@@ -127,9 +129,10 @@ struct LightPathExpressionReader {
 
 } // namespace detail
 
-/// Compiles a class of paths; constexpr if the result is.
-/// \param expression  As "ES*D?L": E, D, S, L, '.' for D or S, and | ( ) * + ? as
-///                    usual; at most 63 letters.
+/// Compiles a class of paths.
+/// \param expression  For example "ES*D?L". It consists of at most 63 letters E, D, S,
+///                    L and '.', which stands for D or S, and of the usual operators
+///                    `| ( ) * + ?`.
 /// \throws std::invalid_argument  for an invalid expression, with the position of the
 ///         error.
 [[nodiscard]] constexpr LightPathExpression
@@ -145,7 +148,7 @@ light_path_expression(std::string_view expression) {
 
 namespace detail {
 
-/// Whether a whole path, as "EDSSL", belongs to a class.
+/// Whether a whole path, for example "EDSSL", belongs to a class.
 /// \cost A few bit operations per letter; no memory.
 // [contains]
 [[nodiscard]] constexpr bool contains(const LightPathExpression& paths,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/light_transport.hpp
-/// \brief Renderers that carry a subset of all light paths, and the g of Eq. 1.
+/// \brief Renderers that carry a subset of all light paths, and the factor g of Eq. 1.
 
 #include <span>
 #include <vector>
@@ -15,12 +15,15 @@ namespace ljus {
 
 /// \defgroup light_transport Light transport
 /// \brief Section 2, Eq. 1: the rendering equation, and renderers that leave out some
-/// of its terms. Chapter: \ref ch_light_transport.
+/// light paths. Chapter: \ref ch_light_transport.
 /// \{
 
-/// The factor g of Eq. 1: visibility over squared distance, between two points on
-/// surfaces. It is 0 if anything occludes one from the other, even glass, or if they
-/// coincide; otherwise 1/r^2, per squared scene unit. It is symmetric.
+/// The factor g of Eq. 1 for two points on surfaces: visibility over squared distance.
+/// \param world  The closed scene.
+/// \param x      One point.
+/// \param other  The other point. Exchanging both gives the same result.
+/// \return 1/r^2 for points at a distance r, per squared scene unit. 0 if any surface,
+///         even of glass, occludes the way, or if the points coincide.
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
@@ -40,8 +43,8 @@ namespace detail {
 template <std::floating_point T>
 struct ExpressionLog {
     const LightPathExpression& wanted; ///< The class.
-    RgbT<T> sum{T(0)};                 ///< Sum of its terms.
-    std::uint64_t states = 0;          ///< States of the current path.
+    RgbT<T> sum{T(0)};                 ///< Sum of the terms, with throughput.
+    std::uint64_t states = 0;          ///< The automaton's states for the path so far.
 
     /// Starts a path at the eye.
     void begin() noexcept { states = wanted.step(1, 'E'); }
@@ -50,9 +53,10 @@ struct ExpressionLog {
         states = wanted.step(states, letter);
     }
 
-    /// Whether the path is of the class if it goes on to a light.
-    /// \param letters  From here to the light. If a photon map stands for a whole
-    ///                 class, as "DS+L", its shortest path decides.
+    /// Whether the path belongs to the class if it continues to a light.
+    /// \param letters  The letters from the last vertex to the light. The term of a
+    ///                 photon map stands for several paths, such as "DS+L"; then the
+    ///                 shortest of them decides.
     [[nodiscard]] bool takes(std::string_view letters) const noexcept {
         std::uint64_t here = states;
         for (const char letter : letters) {
@@ -62,21 +66,22 @@ struct ExpressionLog {
         return (here & wanted.last) != 0;
     }
 
-    /// Adds radiance, if the path is of the class.
+    /// Adds radiance if the path belongs to the class.
     void term(std::string_view, std::string_view letters,
               const RgbT<T>& value) noexcept {
         if (takes(letters)) sum += value;
     }
 };
 
-/// Several ExpressionLogs that record the same path.
+/// A log that sums the terms of several classes of paths separately.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{};  ///< One per class.
-    std::vector<std::uint64_t> takers{};   ///< Of each delayed term: a bit per class.
+    std::vector<ExpressionLog<T>> logs{};  ///< One for each class.
+    std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
     std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
 
-    /// \param classes  Must outlive the log.
+    /// Makes a log.
+    /// \param classes  The classes of paths, at most 64; must outlive the log.
     explicit ClassesLog(std::span<const LightPathExpression> classes) {
         for (const LightPathExpression& wanted : classes) logs.push_back({wanted});
     }
@@ -90,7 +95,8 @@ struct ClassesLog {
               const RgbT<T>& value) noexcept {
         for (auto& log : logs) log.term(owner, letters, value);
     }
-    /// A batch will find the radiance of at most 64 classes.
+    /// Records which classes a delayed term belongs to. There may be at most 64
+    /// classes.
     void delay(std::string_view letters) {
         std::uint64_t bits = 0;
         for (std::size_t k = 0; k < logs.size(); ++k)
@@ -102,17 +108,18 @@ struct ClassesLog {
 
 } // namespace detail
 
-/// A renderer that carries only some of the paths of another renderer, which must
-/// outlive it. Pictures of disjoint classes that together contain all paths add up to
-/// the whole picture: the random paths are the same, and only the sums differ.
+/// A renderer that carries only one class of the paths of another renderer. The random
+/// paths are the same. If the classes of several such renderers are disjoint and
+/// together contain all paths, their pictures add up to that of the other renderer.
 ///
 ///     render(OnlyPaths(tracer, "ES*DS+L"), camera, picture)
 template <typename R>
 class OnlyPaths {
 public:
-    using Stream = typename R::Stream; ///< Same numbers, so the same paths.
+    using Stream = typename R::Stream; ///< The random stream of the other renderer.
 
-    /// \param whole    The renderer that traces the paths.
+    /// Makes the renderer.
+    /// \param whole    The renderer that traces the paths; must outlive this one.
     /// \param carried  The class of paths, as for light_path_expression().
     /// \throws std::invalid_argument  as light_path_expression().
     OnlyPaths(Ref<R> whole, std::string_view carried)
@@ -132,8 +139,8 @@ private:
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
-/// The radiance of one camera path, restricted to the class.
-/// \cost That of the whole renderer.
+/// The radiance that a camera ray receives by paths of the class, W/(m^2 sr).
+/// \cost That of the other renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,
                                Context& context) {

@@ -23,26 +23,26 @@
 namespace ljus {
 
 /// \defgroup vertex Vertices
-/// \brief Section 3.2: a ray's hit, with all that shading needs.
+/// \brief Section 3.2: the hit of a ray, with the data for shading.
 /// \{
 
-/// A vertex of a path, as all renderers and the photon pass use it.
+/// A vertex of a path, for all renderers and the photon pass.
 template <std::floating_point T>
 struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Shading frame, in which materials work.
-    Vec3T<T> wo{T(0), T(0), T(1)}; ///< To the previous vertex; unit, in the frame.
-    Vec2T<T> uv{T(0)};    ///< texture_coordinates(), if the material uses them.
-    ObjectId id{};        ///< Identity of the object.
-    ObjectT<T> object{};  ///< Its material and emission.
-    T outside = T(1);     ///< Index of refraction outside: of a body that touches here.
-    RgbT<T> medium{T(0)}; ///< Absorption before it, per scene unit.
-    T distance = T(0);    ///< From the previous vertex, in scene units.
-    T time = T(0);        ///< Time of the path, in [0, 1].
-    T stop_probability = T(1); ///< Probability of not passing a thin surface.
-    T wavelength = line_d<T>; ///< Of the path, in nm, at which dispersive glass is met.
-    bool smooth = false; ///< Whether the shading normal differs from the geometric one.
-    bool turned = false; ///< Whether the normals disagree about the side of `wo`.
+    Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit, to the previous vertex, in the frame.
+    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
+    ObjectId id{};             ///< Number of the object.
+    ObjectT<T> object{};       ///< Material and emission of the object.
+    T outside = T(1);          ///< Index of refraction on the outside; 1 in air.
+    RgbT<T> medium{T(0)};      ///< Absorption before the vertex, per scene unit.
+    T distance = T(0);         ///< Distance from the previous vertex, in scene units.
+    T time = T(0);             ///< Time of the path, in [0, 1].
+    T stop_probability = T(1); ///< At a thin surface: probability of not passing it.
+    T wavelength = line_d<T>;  ///< Wavelength for dispersive glass, in nm.
+    bool smooth = false; ///< Whether the normals differ but agree on the side of `wo`.
+    bool turned = false; ///< Whether the normals disagree on the side of `wo`.
 
     /// Whether the surface emits towards `wo`; emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
@@ -53,8 +53,7 @@ using Vertex = VertexT<float>; ///< VertexT in float.
 
 namespace detail {
 
-/// Whether a material uses texture coordinates. It costs a comparison if the scene
-/// lists such a type of material, otherwise nothing.
+/// Whether a material uses texture coordinates.
 template <AnyWorld W>
 [[nodiscard]] bool uses_uv(const W& world, MaterialId material) {
     if constexpr (W::any_material([]<typename M>() { return UsesUv<M>; }))
@@ -65,9 +64,10 @@ template <AnyWorld W>
         return false;
 }
 
-/// Sets the frame of a vertex on a shape with shading normals.
-/// \param vertex  Its point and its object are set.
-/// \param normal  The shape's shading normal.
+/// Sets the shading frame of a vertex, and turns its normals if the object is inside
+/// out.
+/// \param vertex  The vertex; `point` and `object` must be set.
+/// \param normal  The shading normal of the shape.
 // [set_frame]
 template <std::floating_point T>
 inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
@@ -92,14 +92,14 @@ inline constexpr bool lists_normal_maps = W::any_material([]<typename M>() {
     return NormalMapped<M>;
 });
 
-/// The normal of a normal map in the scene.
-/// \param local      See NormalMapped.
-/// \param normal     The shape's shading normal.
+/// Transforms the normal of a normal map into the world.
+/// \param local      The normal from normal_at(); see NormalMapped.
+/// \param normal     The shading normal of the shape.
 /// \param geometric  The geometric normal, on the same side.
-/// \param tangents   texture_tangents().
-/// \return Unit vector within 90 degrees of `geometric`: `normal` if the map is flat
-///         there or the shape has no tangents; `geometric` if the mapped one would face
-///         away.
+/// \param tangents   texture_tangents() of the shape.
+/// \return A unit vector within 90 degrees of `geometric`. It is `normal` if the map is
+///         flat at this point or the shape has no tangents there, and `geometric` if
+///         the mapped normal would point to the other side.
 // [mapped_normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> mapped_normal(const Vec3T<T>& local, const Vec3T<T>& normal,
@@ -107,8 +107,8 @@ template <std::floating_point T>
                                      const std::array<Vec3T<T>, 2>& tangents) noexcept {
     using Wide = Vec3T<WideT<T>>;
     const Wide up(normal), along(tangents[0]);
-    const Wide u = along - glm::dot(along, up) * up; // v is at right angles to it
-    constexpr T flat = T(4) * std::numeric_limits<T>::epsilon(); // as interpolated
+    const Wide u = along - glm::dot(along, up) * up; // perpendicular to the normal
+    constexpr T flat = T(4) * std::numeric_limits<T>::epsilon(); // of interpolation
     if (glm::max(std::abs(local.x), std::abs(local.y)) <= flat || u == Wide(0))
         return normal;
     const Wide x = glm::normalize(u), y = glm::cross(up, x);
@@ -121,8 +121,8 @@ template <std::floating_point T>
 }
 // [mapped_normal]
 
-/// The index of refraction of a body at a wavelength; 1 if its material does not know
-/// it.
+/// The index of refraction of a body at a wavelength in nm; 1 if its material is
+/// neither Dispersive nor Refractive.
 template <AnyWorld W>
 [[nodiscard]] typename W::Scalar index_of(const W& world, MaterialId material,
                                           typename W::Scalar wavelength) {
@@ -136,8 +136,9 @@ template <AnyWorld W>
     });
 }
 
-/// For a vertex where surfaces of several objects lie in one place: sets the body
-/// outside, and an error so large that a ray starts beyond all of these surfaces.
+/// Completes a vertex where surfaces of several objects lie in one place. It sets the
+/// index of refraction on the outside. It enlarges the error of the point, so that a
+/// new ray starts beyond all of these surfaces.
 template <AnyWorld W, std::floating_point T>
 [[gnu::cold]] void set_contact(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                                const SceneHitT<T>& hit) {
@@ -153,7 +154,7 @@ inline constexpr bool lists_dispersive = W::any_material([]<typename M>() {
     return Dispersive<M>;
 });
 
-/// Whether a material disperses light; no_body does not.
+/// Whether a material disperses light; false for no_body.
 template <AnyWorld W>
 [[nodiscard]] bool disperses(const W& world, MaterialId material) {
     return material != no_body &&
@@ -161,13 +162,15 @@ template <AnyWorld W>
                                 []<typename M>(const M&) { return Dispersive<M>; });
 }
 
-/// Chooses the wavelength of a path at random, where it first meets a material that
-/// disperses light, on either side of a contact. Before, it carries all wavelengths.
-/// Its throughput is multiplied by the colour of the wavelength, whose mean is white.
-/// \param path     Keeps the wavelength from there on.
-/// \param vertex   A vertex of fill_vertex(); receives the wavelength.
-/// \param outside  The material of the body on the outside; no_body: air.
-/// \param stream   One number is drawn at that first material.
+/// Chooses the wavelength of a path at random when the path first meets a material that
+/// disperses light, on either side of the surface. Until then the path carries all
+/// wavelengths. The throughput is multiplied by the colour of the wavelength; the mean
+/// of these colours is white.
+/// \param path     The path; receives the wavelength and keeps it.
+/// \param vertex   A vertex from fill_vertex(); receives the wavelength.
+/// \param hit      The hit at the vertex.
+/// \param outside  The material of the body on the outside; no_body in air.
+/// \param stream   One number is drawn if a wavelength is chosen.
 // [disperse]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
@@ -183,9 +186,9 @@ void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
 }
 // [disperse]
 
-/// Sets the frame of a vertex by the normal map of its material, if it has one.
-/// \param vertex  Its point, its uv and its object are set.
-/// \return Whether it has one.
+/// Sets the frame of a vertex by the normal map of its material, if there is one.
+/// \param vertex  The vertex; `point`, `uv` and `object` must be set.
+/// \return Whether the material has a normal map.
 template <AnyWorld W, std::floating_point T, HasTangents G>
 [[nodiscard]] bool map_normal(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                               const G& shape, const ShapeHitT<T>& hit) {
@@ -193,7 +196,7 @@ template <AnyWorld W, std::floating_point T, HasTangents G>
         if constexpr (NormalMapped<M>) {
             Vec3T<T>& geometric = vertex.point.normal;
             if (is_plane<G> && vertex.object.inside_out)
-                geometric = -geometric; // which set_frame() turns
+                geometric = -geometric; // set_frame() turns it again
             Vec3T<T> normal = geometric;
             if constexpr (requires { shading_normal(shape, hit, geometric); })
                 normal = shading_normal(shape, hit, geometric);
@@ -205,10 +208,10 @@ template <AnyWorld W, std::floating_point T, HasTangents G>
     });
 }
 
-/// Sets a vertex to the result of vertex_at(), in place: next_vertex() would otherwise
-/// copy 160 bytes per ray.
-/// \param vertex  A new vertex; all members except its medium are set.
-/// \param ray     The ray that hit, with a direction of unit length.
+/// Computes vertex_at() in place, which saves a copy of 160 bytes per ray.
+/// \param vertex  A new vertex. All members except `medium`, `outside`, `wavelength`
+///                and `stop_probability` are set.
+/// \param ray     The ray that hit, with a unit direction.
 template <AnyWorld W, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -245,11 +248,11 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// The vertex at a hit, without its medium. The ray has a direction of unit length.
+/// The vertex at a hit. VertexT::medium is not set. The ray must have a unit direction.
 ///
-/// The geometric normal decides the side of a direction. If the two normals disagree
-/// about the side of the ray, the frame is set around the geometric one, so that the z
-/// of `wo` always gives the side and no surface is seen from behind.
+/// The geometric normal decides on which side of the surface the ray arrives. The frame
+/// is set around the shading normal or, if the two normals disagree about this side,
+/// around the geometric normal. The sign of wo.z therefore always gives the side.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
@@ -259,11 +262,10 @@ template <AnyWorld W, std::floating_point T>
     return vertex;
 }
 
-/// Calls f(material) with the material of a vertex. A textured material is its base
-/// with the colour at the vertex, a soap film has its thickness at the vertex, and
-/// glass that disperses light is that of the path's wavelength. Where a transparent
-/// body touches another one, its index is relative to that of the other. Other
-/// materials are the same everywhere.
+/// Calls f(material) with the material of a vertex, as it is at this point: with the
+/// colour of its texture, the thickness of a soap film, or the index at the wavelength
+/// of the path. Where two transparent bodies touch, the index of one is relative to
+/// that of the other.
 // [visit_material_at]
 template <AnyWorld W, std::floating_point T, typename F>
 decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f) {
@@ -283,8 +285,8 @@ decltype(auto) visit_material_at(const W& world, const VertexT<T>& vertex, F&& f
 }
 // [visit_material_at]
 
-/// Whether a vertex lies on an object that is nearly_specular(). This is a property of
-/// the whole object, not of the point, because photons are aimed at whole objects.
+/// Whether a vertex lies on an object whose material is nearly_specular(). The answer
+/// is the same for all points of the object, even if a texture changes the material.
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] bool nearly_specular_at(const W& world, const VertexT<T>& vertex,
                                       const M& material) {
@@ -296,6 +298,8 @@ template <AnyWorld W, std::floating_point T, Material M>
 namespace detail {
 
 /// Whether both normals of a vertex agree about the side of a direction.
+/// \param local  The direction in the frame of the vertex.
+/// \param world  The same direction in the world.
 template <std::floating_point T>
 [[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {
@@ -309,24 +313,19 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup next_vertex The next vertex
-/// \brief Intersection, media, bodies in each other, thin surfaces and the shutter in
+/// \brief Intersection, media, overlapping bodies, thin surfaces and moving shapes in
 /// one function.
 ///
 /// A thin surface, such as a soap film, reflects some light and transmits the rest
-/// without deflection. Transmission is not scattering: the path keeps its letters, its
-/// density and its depth, and gets no vertex there; only reflection is S.
-///
-/// | question                          | answered by                                  |
-/// |-----------------------------------|----------------------------------------------|
-/// | how much of a lamp is visible     | visibility(): the product of transmittances  |
-/// | what a path hits                  | next_vertex(): chance decides between T and R|
-///
-/// A scene that lists no such material pays nothing; one that lists some but has none
-/// pays a comparison per ray.
+/// without deflection. Transmission does not count as scattering: a transmitted path
+/// has no vertex at the surface, and keeps its letters in Heckbert's notation, its
+/// density and its depth. Reflection is S. The function visibility() multiplies the
+/// light of a shadow ray by the transmittances. The function next_vertex() chooses
+/// between transmission and reflection at random.
 /// \{
 
 /// A material that transmits light without deflection: `pass_through(m, position, wo)`
-/// returns the transmittance. Its sample() only reflects.
+/// returns the transmittance. sample() of such a material returns reflection only.
 template <typename M>
 concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
     { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
@@ -346,11 +345,11 @@ inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
     return detail::is_moving<G>;
 });
 
-/// A vertex of a moving shape, moved back to its position at time 0. Photons of all
-/// times are stored and looked up there, so that each point of the shape receives its
-/// mean irradiance while the shutter is open. What a path sees at one time only, as
-/// through glass that moves, has that mean too.
-/// \return The vertex at time 0; unchanged on a shape at rest.
+/// Moves a vertex on a moving shape back to its position at time 0. Photons of all
+/// times are stored and looked up at this position. An estimate is therefore the mean
+/// irradiance over the time for which the shutter is open, even if a path sees the
+/// point at one time only.
+/// \return The vertex at time 0; on a shape at rest the vertex itself.
 // [at_rest]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] decltype(auto) at_rest(const W& world, const VertexT<T>& vertex) {
@@ -367,14 +366,14 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a material that is a thin surface; false if it only lists such a
-/// type.
+/// Whether a scene has a material that is a thin surface. False if the scene only lists
+/// such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has a shape that moves; false if it only lists such a type.
+/// Whether a scene has a shape that moves. False if the scene only lists such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
@@ -395,8 +394,10 @@ template <AnyWorld W, StreamLike Stream>
 
 } // namespace detail
 
-/// Starts the path of a camera ray at a random time. One number is drawn if the scene
-/// has a moving shape.
+/// Starts the path of a camera ray at a random time.
+/// \param world   The closed scene.
+/// \param ray     The camera ray.
+/// \param stream  One number is drawn if the scene has a moving shape.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {
@@ -407,7 +408,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 
 namespace detail {
 
-/// The transmittance of a surface, per channel; nothing if it is not thin.
+/// The transmittance of a thin surface, per channel; nothing for other surfaces.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> passed_through(const W& world,
                                                     const VertexT<T>& vertex) {
@@ -420,10 +421,11 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// After more thin or hidden surfaces than this a ray counts as blocked.
+/// The largest number of thin or hidden surfaces that a ray passes. A ray that meets
+/// more counts as blocked.
 inline constexpr int max_thin_surfaces = 1000;
 
-// visibility() in a scene with thin surfaces, or between bodies in each other.
+// visibility() in a scene with thin surfaces or with overlapping bodies.
 // [visibility]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility_through(const W& world, const SurfacePointT<T>& from,
@@ -437,7 +439,7 @@ template <AnyWorld W, std::floating_point T>
         if (!hit) return through;
         const CrossingT<T> crossing = crossing_at(world, ray, *hit, bodies);
         VertexT<T> vertex = vertex_at(world, ray, *hit);
-        vertex.wo = glm::normalize(vertex.wo); // the ray is as long as the distance
+        vertex.wo = glm::normalize(vertex.wo); // the ray's direction is no unit vector
         if (!crossing.hidden) {
             const auto passed = passed_through(world, vertex);
             if (!passed) break;
@@ -455,12 +457,16 @@ template <AnyWorld W, std::floating_point T>
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray);
 
-/// The fraction of light that arrives from one point at another.
-/// \return 0 if anything occludes it; otherwise the product of the transmittances of
-///         the thin surfaces, or of the fog, between them. A surface that a body of
-///         higher priority hides does not occlude.
-/// \cost That of occluded(); with thin or hidden surfaces a closest_hit() for each, and
-///       one more.
+/// The fraction of light that gets from one point to another.
+/// \param world  The closed scene.
+/// \param from   One point.
+/// \param to     The other point.
+/// \param time   Time of the path, in [0, 1].
+/// \return For each channel: 0 if a surface occludes the way, otherwise the product of
+///         the transmittances of thin surfaces and of fog on the way. A surface inside
+///         a body of higher priority does not occlude.
+/// \cost One call of occluded(). If there are thin or hidden surfaces, one call of
+///       closest_hit() for each, and one more.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
@@ -480,20 +486,20 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The effect of the surfaces between two vertices.
+/// The surfaces that a path passes between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)};     ///< Transmittance over its probability.
-    T distance = T(0);         ///< From the vertex to the last surface passed.
-    T stop_probability = T(1); ///< Probability of reflection at a stop; else 1.
-    std::uint8_t outside = 0;  ///< Rank of the body on the outside where it stops.
+    RgbT<T> through{T(1)};     ///< Transmittance over the probability of passing.
+    T distance = T(0);         ///< From the first vertex to the last passed surface.
+    T stop_probability = T(1); ///< Probability of stopping at a thin surface; else 1.
+    std::uint8_t outside = 0;  ///< Rank of the body outside; see BodyList. 0: air.
 };
 
-/// Traces a path through thin surfaces and hidden ones. At each thin one the path stops
-/// for reflection with the mean reflectance of the channels as probability, or passes.
-/// \param path    Receives the last segment of its ray, and the bodies on both sides of
-///                the surface where it stops.
-/// \param hit     The first hit of the ray; receives that of its last segment.
+/// Traces a path through thin and hidden surfaces. A path stops at a thin surface, to
+/// be reflected, with a probability that is the mean reflectance of the channels.
+/// \param path    The path. Receives the last segment of its ray, and the bodies on
+///                both sides of the surface where the path stops.
+/// \param hit     The first hit of the ray; receives the hit where the path stops.
 /// \param stream  One number is drawn per thin surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PassageT<T> pass_surfaces(const W& world, PathStateT<T>& path,
@@ -529,7 +535,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return passage;
 }
 
-/// What a path passes on its way to its next vertex; see pass_surfaces().
+/// The surfaces that a path passes on its way to the next vertex; see pass_surfaces().
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] inline PassageT<T> passage(const W& world, PathStateT<T>& path,
                                          std::optional<SceneHitT<T>>& hit,
@@ -540,13 +546,14 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return {};
 }
 
-/// Whether a type of scene lists a material with an interior.
+/// Whether a type of scene lists a transparent material.
 template <AnyWorld W>
 inline constexpr bool lists_media = W::any_material([]<typename M>() {
     return Transparent<M>;
 });
 
-/// The absorption in a body of a material; nothing if the material is opaque.
+/// The absorption coefficient in a body of a material, per scene unit; nothing if the
+/// material has no absorption().
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>> medium_of(const W& world,
                                                                 MaterialId material) {
@@ -560,7 +567,8 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption in a body of a rank; nothing outside all bodies.
+/// The absorption coefficient in the body of a rank, see BodyList, per scene unit.
+/// Nothing for rank 0, which is air.
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -570,12 +578,13 @@ medium_of_rank(const W& world, std::uint8_t rank) {
 
 } // namespace detail
 
-/// The absorption in the innermost body around a ray's origin; with priorities in the
-/// highest one. A body contains the origin if the ray leaves its surface without having
-/// entered it. Opaque surfaces are ignored. Bodies are closed, and consist of one shape
-/// or several.
+/// The absorption coefficient at the origin of a ray. If several bodies contain the
+/// origin, the innermost body counts, or the body with the highest priority if the
+/// scene has priorities. A body contains the origin if the ray leaves the body without
+/// having entered it. Opaque surfaces are ignored. A body must be closed; it may
+/// consist of several shapes.
 /// \return Per scene unit; nothing outside all bodies.
-/// \cost A ray per surface up to the end of the body.
+/// \cost One call of closest_hit() per surface up to the end of the body.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> interior_at(const W& world, RayT<T> ray) {
     if (world.has_priorities())
@@ -605,7 +614,8 @@ template <AnyWorld W, std::floating_point T>
     return std::nullopt;
 }
 
-/// The absorption at a ray's origin, per scene unit: interior_at(), or 0 outside.
+/// The absorption coefficient at the origin of a ray, per scene unit: interior_at(), or
+/// 0 outside all bodies.
 /// \cost A comparison outside the bounding box of all bodies that absorb.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, const RayT<T>& ray) {
@@ -618,7 +628,7 @@ template <AnyWorld W, std::floating_point T>
 /// medium times the length of the ray within it, per channel. The transmittance is
 /// exp(-depth).
 /// \param world  The closed scene.
-/// \param ray    Its direction may have any length but zero.
+/// \param ray    The ray. Its direction may have any length above 0.
 /// \return Per channel, at least 0.
 // [optical depth]
 template <AnyWorld W, std::floating_point T>
@@ -635,8 +645,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [optical depth]
 
-/// Whether a ray crosses fog: the scene has some, and the ray does not start in a body,
-/// which keeps fog out.
+/// Whether a ray may cross fog: the scene has fog, and the ray does not start inside a
+/// body, where there is none.
 /// \cost A comparison outside the bounding box of all transparent bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
@@ -649,8 +659,8 @@ template <AnyWorld W, std::floating_point T>
 
 /// The fraction of light that crosses the fog along a ray up to its t_max.
 /// \param world  The closed scene.
-/// \param ray    No surface of a body lies on it.
-/// \return In [0, 1] per channel; 1 within a body.
+/// \param ray    The ray. It must not meet the surface of a body.
+/// \return In [0, 1] for each channel; 1 inside a body.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray) {
     if (!meets_fog(world, ray)) return RgbT<T>{T(1)};
@@ -659,8 +669,8 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// Sets the medium of a path if it is not known: at the start of the path and, if
-/// bodies may lie inside others, where the path has left a body.
+/// Sets the medium of a path if it is not known. It is not known at the start of the
+/// path and, if bodies may lie inside others, where the path has left a body.
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {
@@ -671,9 +681,10 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
     }
 }
 
-/// Sets, in a scene with priorities, the index on the outside of a vertex, and the
-/// medium of the path: that of the highest body around it.
-/// \param outside  The rank of the body on the outside; 0: air.
+/// In a scene with priorities, sets two things: the index of refraction on the outside
+/// of a vertex; and the medium of the path, which is that of the body with the highest
+/// priority around it.
+/// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
                        std::uint8_t outside) {
@@ -688,15 +699,15 @@ inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
 
 } // namespace detail
 
-/// Advances a path to its next vertex. Its throughput is attenuated by media and thin
-/// surfaces, and coloured by the first material that disperses light. medium_at() finds
-/// the medium at the start of a path, and where the path leaves a body that may lie
-/// inside another; in a scene with priorities the path knows in which bodies it is.
+/// Advances a path to its next vertex. The throughput is multiplied by the
+/// transmittance of media and thin surfaces on the way. At the first material that
+/// disperses light, it is also multiplied by the colour of the wavelength that is
+/// chosen there.
 /// \param world   The closed scene.
-/// \param path    Receives its depth, the last segment of its ray and its throughput.
-/// \param stream  Advanced to the start of the bounce; one number is drawn per thin
-///                surface, and one where the path gets a wavelength.
-/// \return The vertex; nothing if the path leaves the scene along its ray.
+/// \param path    The path. Its depth grows by 1. Receives the last segment of the ray.
+/// \param stream  Advanced to the start of the bounce. One number is drawn per thin
+///                surface, and one if a wavelength is chosen.
+/// \return The vertex; nothing if the path leaves the scene.
 // [next_vertex]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,

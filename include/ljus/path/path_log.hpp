@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/path_log.hpp
-/// \brief A record of what a renderer did for one path, in Heckbert's notation.
+/// \brief A log of the vertices and terms of paths, in Heckbert's notation.
 
 #include <string>
 #include <string_view>
@@ -13,26 +13,26 @@
 namespace ljus {
 
 /// \defgroup path_log Path logs
-/// \brief Every renderer reports to a log; usually it is a NoLog, which costs nothing.
+/// \brief Logs to which a renderer reports its paths. The default, NoLog, ignores them.
 /// \{
 
 /// A line of a PathLog.
 struct PathLogLine {
-    std::string path;       ///< Letters from the camera, E first.
-    std::string what;       ///< "vertex", or the estimator of a term.
-    glm::dvec3 value{0};    ///< Throughput at a vertex; radiance of a term.
+    std::string path;       ///< Letters of the path, beginning with E at the camera.
+    std::string what;       ///< "vertex", or the name of the estimator of a term.
+    glm::dvec3 value{0};    ///< Throughput after a vertex, or radiance of a term.
     glm::dvec3 position{0}; ///< Position of the last vertex so far.
     double pdf = 0;         ///< Density of the next direction, per steradian; 0: delta.
 };
 
-/// Records every vertex and every term of the paths reported to it.
+/// A log that records every vertex and every term of a path.
 struct PathLog {
     std::vector<PathLogLine> lines; ///< In the order of the path.
     std::string letters = "E";      ///< Letters of the path so far.
-    glm::dvec3 here{0};             ///< Position of the path.
+    glm::dvec3 here{0};             ///< Position at which the path has last arrived.
 
     /// Starts a path.
-    void begin() { letters.assign(1, 'E'); } // g++ 12 warns of = "E" (its bug 105651)
+    void begin() { letters.assign(1, 'E'); } // = "E" warns in g++ 12, bug 105651
 
     /// Records the path's arrival at a surface, where it may end.
     template <std::floating_point T>
@@ -41,10 +41,10 @@ struct PathLog {
     }
 
     /// Records a scattering at a vertex.
-    /// \param letter      D or S, by the sampled lobe.
+    /// \param letter      S for a specular lobe, otherwise D.
     /// \param position    Position of the vertex.
-    /// \param throughput  After the vertex.
-    /// \param pdf         Density of the direction; 0: delta.
+    /// \param throughput  Throughput of the path after the vertex.
+    /// \param pdf         Density of the new direction, per steradian; 0 for a delta.
     template <std::floating_point T>
     void vertex(char letter, const Vec3T<T>& position, const RgbT<T>& throughput,
                 T pdf) {
@@ -53,9 +53,9 @@ struct PathLog {
                          glm::dvec3(position), double(pdf)});
     }
 
-    /// Records added radiance.
-    /// \param owner   Its estimator: "emission", "shadow ray", "caustics map", ...
-    /// \param suffix  The letters from here to the light.
+    /// Records radiance that the path finds, unless it is black.
+    /// \param owner   The estimator: "emission", "shadow ray", "caustics map", ...
+    /// \param suffix  The letters from the last vertex to the light.
     /// \param value   Throughput times radiance.
     template <std::floating_point T>
     void term(std::string_view owner, std::string_view suffix, const RgbT<T>& value) {
@@ -73,8 +73,9 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
     if constexpr (requires { log.arrive(position); }) log.arrive(position);
 }
 
-/// Reports a term whose value a batch finds later to a log that has delay().
-/// \param suffix  The letters from here to the light.
+/// Reports a term to a log that has delay(). The value of the term is found later, by a
+/// batch.
+/// \param suffix  The letters from the last vertex to the light.
 template <typename Log>
 void log_delay(Log& log, std::string_view suffix) {
     if constexpr (requires { log.delay(suffix); }) log.delay(suffix);
@@ -87,8 +88,8 @@ void log_vertex(Log& log, const PathStateT<T>& path) {
     log.vertex(path.specular ? 'S' : 'D', path.previous, path.throughput, path.pdf);
 }
 
-/// Reports a path from split_path(): repeats all its letters so far.
-/// \param path  The path; it has met only mirrors and glass.
+/// Reports a path from split_path() as a new path, with all its vertices so far.
+/// \param path  The path. It has met only mirrors and glass.
 template <typename Log, std::floating_point T>
 void log_specular_path(Log& log, const PathStateT<T>& path) {
     log.begin();

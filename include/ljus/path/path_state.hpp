@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/path/path_state.hpp
-/// \brief The state of a path between its vertices, for radiance or flux.
+/// \brief The state of a path between two vertices, for radiance or flux.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,39 +16,43 @@ namespace ljus {
 /// \{
 
 /// The state of a path from the camera or from a light. next_vertex() and
-/// continue_path() advance both kinds; they differ only in what they carry and in what
-/// is done at a vertex.
+/// continue_path() advance paths of both kinds.
 template <std::floating_point T>
 struct PathStateT {
-    RayT<T> ray{};             ///< Its current ray and its time.
-    RgbT<T> throughput{T(1)};  ///< The factor of the radiance that a camera path finds;
-                               ///< the flux of a photon, in W.
-    T eta_scale = T(1);        ///< The factor (n_i/n_t)^2 in the throughput.
-    RgbT<T> medium{T(0)};      ///< Absorption at its position, per scene unit.
-    bool medium_known = false; ///< False: next_vertex() finds the medium.
-    BodyList bodies{}; ///< Around it, in a scene with priorities. Empty: next_vertex()
-                       ///< looks for them.
-    BodyList behind{}; ///< Beyond the surface of its vertex, in such a scene.
-    Vec3T<T> previous{T(0)};   ///< The last vertex.
-    T pdf = T(0);              ///< Pdf of its direction, per steradian; 0: delta.
-    T wavelength = T(0);       ///< In nm, once it has met a Dispersive material; until
-                               ///< then 0, and it carries light of all wavelengths.
-    bool specular = false;     ///< Whether its last scattering was specular.
+    RayT<T> ray{}; ///< The current ray, with the time of the path.
+    /// For a camera path, the factor of the radiance that it finds; for a photon, its
+    /// flux in W.
+    RgbT<T> throughput{T(1)};
+    T eta_scale = T(1);        ///< The product of all BsdfSampleT::eta_scale.
+    RgbT<T> medium{T(0)};      ///< Absorption coefficient here, per scene unit.
+    bool medium_known = false; ///< If false, next_vertex() finds the medium.
+    /// In a scene with priorities, the bodies around the path. If the list is empty,
+    /// next_vertex() looks for them.
+    BodyList bodies{};
+    /// In a scene with priorities, the bodies behind the surface of the vertex.
+    BodyList behind{};
+    Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
+    T pdf = T(0);            ///< Density of the direction, per steradian; 0: delta.
+    /// In nm. It is 0, for all wavelengths, until the path meets a Dispersive material.
+    T wavelength = T(0);
+    bool specular = false;     ///< Whether the last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.
     bool met_specular = false; ///< Whether any scattering was specular.
     int depth = 0;             ///< Number of vertices so far.
-    std::uint64_t branch = 0;  ///< Offset of its random numbers; see split_path().
+    std::uint64_t branch = 0;  ///< Offset of the random numbers; see split_path().
 };
 using PathState = PathStateT<float>; ///< PathStateT in float.
 
-/// Russian roulette on a camera path: it survives with a probability proportional to
-/// its throughput, and a survivor is divided by the probability \cite arvo1990.
-/// Radiance decreases by a factor of 2.25 when it leaves glass; roulette ignores this
-/// factor. Any positive probability gives the same mean, but not the same noise.
-/// \param throughput  Divided by the probability if the path survives.
-/// \param eta_scale   The product of all BsdfSampleT::eta_scale in the throughput.
-/// \param u           In [0, 1).
-/// \param threshold   Roulette applies below this throughput; 0: never.
+/// Russian roulette on a camera path \cite arvo1990. The path survives with a
+/// probability proportional to its throughput. The throughput of a survivor is divided
+/// by this probability, so that the mean stays the same. The scaling of radiance by
+/// refraction, `eta_scale`, does not influence the probability.
+/// \param throughput       Its largest channel counts. Divided by the probability if
+///                         the path survives.
+/// \param eta_scale        PathStateT::eta_scale.
+/// \param u                In [0, 1).
+/// \param threshold        Paths with a larger throughput survive with probability
+///                         `max_probability`.
 /// \param max_probability  The largest probability, in (0, 1].
 /// \return Whether the path survives.
 // [survives]

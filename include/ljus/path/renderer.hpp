@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/path/renderer.hpp
-/// \brief The interface of a renderer, and the context of its camera rays.
+/// \brief The interface of a renderer: its counters, its logs, and the context of a
+/// camera ray.
 
 #include <concepts>
 #include <cstdint>
@@ -13,19 +14,19 @@
 namespace ljus {
 
 /// \defgroup counts Counts
-/// \brief Counters of the renderers; they are the same on every machine.
+/// \brief Counters of rays and photons. They are the same on every machine.
 /// \{
 
-/// Rays and photons of a rendering.
+/// The numbers of rays and photons of a rendering.
 struct Counts {
     std::uint64_t camera_rays = 0;     ///< Primary rays.
     std::uint64_t bounce_rays = 0;     ///< Reflected, refracted and indirect rays.
     std::uint64_t shadow_rays = 0;     ///< Rays to lights.
     std::uint64_t map_queries = 0;     ///< Density estimates of photon maps.
-    std::uint64_t map_photons = 0;     ///< Photons summed by them.
+    std::uint64_t map_photons = 0;     ///< Photons summed by density estimates.
     std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons made unnecessary.
     std::uint64_t skipped_bounces = 0; ///< Indirect rays omitted in the dark.
-    std::uint64_t rejected = 0;        ///< Non-finite samples, which were omitted.
+    std::uint64_t rejected = 0;        ///< Omitted samples that were not finite.
     std::uint64_t cut_paths =
         0; ///< Paths ended by the depth limit; their light is missing.
 
@@ -51,7 +52,7 @@ struct Counts {
 
 namespace detail {
 
-/// Counts a path if the depth limit cuts it, and returns whether it does.
+/// Counts a path if `cut` is true. Returns `cut`.
 constexpr bool cut_if(bool cut, Counts& counts) noexcept {
     counts.cut_paths += cut ? 1u : 0u;
     return cut;
@@ -62,13 +63,13 @@ constexpr bool cut_if(bool cut, Counts& counts) noexcept {
 /// \}
 
 /// \defgroup renderer The interface of a renderer
-/// \brief One function, called for each primary ray.
+/// \brief A renderer has one function, which is called for each camera ray.
 /// \{
 
-/// A receiver of a path's events, in Heckbert's notation: its start, each scattering
-/// and each term of radiance. A log may also have `arrive(position)`, which is called
-/// for each surface that the path hits, and `delay(letters)`, which is called instead
-/// of `term` where a batch finds the value later.
+/// A receiver of the events of a path: begin() at its start, vertex() at each
+/// scattering, and term() for each term of radiance. A log may have two more functions.
+/// `arrive(position)` is called for each surface that the path hits. `delay(letters)`
+/// is called instead of term() if a batch finds the value later.
 template <typename L, typename T = float>
 concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.begin();
@@ -76,7 +77,7 @@ concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.term(std::string_view{}, std::string_view{}, v);
 };
 
-/// The log that ignores all events, for rendering pictures.
+/// A log that ignores all events.
 struct NoLog {
     /// Ignores the start of a path.
     constexpr void begin() const noexcept {}
@@ -89,17 +90,18 @@ struct NoLog {
                         const RgbT<T>&) const noexcept {}
 };
 
-/// The batch for renderers that defer nothing.
+/// The batch of a renderer that defers no estimates.
 struct NoBatch {};
 
-/// The context of a camera ray, from its first vertex to its last.
-/// \tparam S  The stream.
-/// \tparam L  The log; usually a NoLog.
-/// \tparam B  Deferred estimates, computed for many rays together; usually a NoBatch.
+/// The context of one camera ray and of the path that begins with it.
+/// \tparam S  The type of the random stream.
+/// \tparam L  The type of the log; usually NoLog.
+/// \tparam B  The type of the batch, which computes deferred estimates for many rays
+///            together; usually NoBatch.
 template <StreamLike S, typename L = const NoLog, typename B = const NoBatch>
 struct Context {
-    S& stream;      ///< Random numbers of this ray.
-    Counts& counts; ///< Its counters.
+    S& stream;      ///< Random numbers of the path.
+    Counts& counts; ///< Counters of rays and photons.
     L& log;         ///< Receives each vertex and each term.
     B& batch;       ///< Receives deferred estimates.
 };
@@ -123,7 +125,7 @@ template <StreamLike S, typename L = const NoLog>
     return {stream, counts, log, detail::no_batch};
 }
 
-/// Adds terms to the radiance of a path, and reports them to a log.
+/// A sum of terms of radiance. Each term is also reported to a log.
 template <std::floating_point T, typename L>
 struct RadianceSum {
     RgbT<T>& sum;              ///< Radiance of the path.
@@ -131,8 +133,8 @@ struct RadianceSum {
     L& log;                    ///< Receives each term.
 
     /// Adds radiance times the throughput.
-    /// \param owner    Its estimator: "emission", "shadow ray", "caustics map", ...
-    /// \param letters  From here to the light.
+    /// \param owner    The estimator: "emission", "shadow ray", "caustics map", ...
+    /// \param letters  The letters from the last vertex to the light.
     /// \param light    Radiance, without the throughput.
     void operator()(const char* owner, const char* letters,
                     const RgbT<T>& light) const {
@@ -148,19 +150,18 @@ struct RadianceSum {
 template <std::floating_point T, typename L>
 RadianceSum(RgbT<T>&, const RgbT<T>&, L&) -> RadianceSum<T, L>;
 
-/// A renderer in the precision of a camera. It is a struct that names its random
-/// stream,
+/// A renderer for rays of precision T. It is a struct that names its random stream,
 ///
 ///     using Stream = RandomStream; // or StratifiedStream
 ///
-/// and has a function that returns the radiance of a camera ray, W/(m^2 sr), and
-/// reports each term to the context's log:
+/// and has a function that returns the radiance of a camera ray in W/(m^2 sr). The
+/// function reports each term to the log of the context:
 ///
 ///     Rgb radiance(const MyRenderer&, const Ray&, auto& context);
 ///
-/// If its paths are scattered by fog (\ref fog_path), it says so by a static member
-/// `carries_fog`. Without it, render() refuses a scene with fog if the renderer has a
-/// function `world()`, and otherwise renders the scene as if its rays met no fog.
+/// A renderer whose paths are scattered by fog (\ref fog_path) has a static member
+/// `carries_fog`. For any other renderer with a function `world()`, render() refuses a
+/// scene with fog. A renderer with neither ignores fog.
 template <typename R, typename T = float>
 concept Renderer = requires {
     typename R::Stream;

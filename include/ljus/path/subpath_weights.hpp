@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/path/subpath_weights.hpp
-/// \brief Weights of all ways to join a path from the eye and a path from a light.
+/// \brief The weights with which a path from the eye and a path from a light are
+/// joined.
 
 #include <cmath>
 
@@ -10,42 +11,48 @@
 namespace ljus {
 
 /// \defgroup subpath_weights Weights of joined paths
-/// \brief The balance heuristic over all ways to find a path from both ends, by two
-/// numbers per vertex \cite georgiev2012 \cite hachisuka2012. Chapter:
+/// \brief The balance heuristic over all strategies that find a path from both ends, by
+/// two numbers per vertex \cite georgiev2012 \cite hachisuka2012. Chapter:
 /// \ref ch_both_ends.
 ///
-/// The functions take numbers only: densities per steradian, cosines, distances.
-/// Density of a direction from a mirror or clear glass is infinite on either way; it
-/// cancels, and is written as 0.
+/// A path from the eye and a path from a light are the two *subpaths* of a whole path.
+/// A *strategy* is the place and the way in which they are joined: by a connection of
+/// two vertices, or by merging two vertices that are close together. The *opposite way*
+/// of a subpath is the way from its last vertex back to its first.
+///
+/// The functions take densities per steradian, cosines and distances. At a mirror or
+/// clear glass the density of a direction is infinite, on both ways. The two infinite
+/// densities cancel, and both are given as 0.
 /// \{
 
-/// The strategies that make less of a subpath and more from the other end, at the last
-/// vertex x of the subpath. Relative to the strategy that connects x to a vertex y of
-/// the other subpath, their densities add up to
+/// The two numbers of the last vertex x of a subpath. They give the density of all
+/// strategies that join the two subpaths earlier on this subpath. Relative to the
+/// strategy that connects x to a vertex y of the other subpath, the sum of these
+/// densities is
 ///
 /// \f[ \overleftarrow{p}\,\bigl(\mathrm{join} + \eta
-///     + \overleftarrow{\sigma}\,\mathrm{further}\bigr) , \f]
+///     + \overleftarrow{\sigma}\,\mathrm{further}\bigr) . \f]
 ///
-/// where \f$\overleftarrow{p}\f$ is the density with which a path from y finds x, per
-/// area; \f$\overleftarrow{\sigma}\f$ that of its direction from x to the vertex
-/// before; and \f$\eta = N \pi r^2\f$ belongs to merging at x. The same holds for paths
-/// from the light and from the eye.
+/// Here \f$\overleftarrow{p}\f$ is the density, per area, with which a path from y
+/// finds x; \f$\overleftarrow{\sigma}\f$ is the density, per steradian, of the
+/// direction from x to the vertex before x; and \f$\eta = N \pi r^2\f$ is the term of
+/// merging at x, with N light paths and the radius r.
 struct SubpathWeights {
-    double join = 0;    ///< For the connection of x to the vertex before it.
-    double further = 0; ///< For all joints before that one.
+    double join = 0;    ///< The term of a connection of x and the vertex before x.
+    double further = 0; ///< The term of all earlier joints.
 };
 
-/// How light leaves a point of a light.
+/// The densities at the end of a path on a light.
 struct LightEnd {
-    double area = 0;   ///< Photons start with the density 1/area; 0: at one point.
-    double pdf = 0;    ///< Density of the direction, per steradian.
+    double area = 0;   ///< Area of the light; 0 for a light without extent.
+    double pdf = 0;    ///< Density of the emitted direction, per steradian.
     double direct = 1; ///< Density of the point for a shadow ray, times the area.
-    double cosine = 0; ///< Of the direction and the normal; 0 without a surface.
+    double cosine = 0; ///< Cosine of direction and normal; 0 without a surface.
 };
 
-/// The weights of a light path at its start, as scattered() returns them.
-/// \param end          Where it starts.
-/// \param probability  Of choosing the light.
+/// The weights of a light path at its start, for arrived().
+/// \param end          The point of the light.
+/// \param probability  The probability of choosing the light.
 // [start]
 [[nodiscard]] inline SubpathWeights started(const LightEnd& end,
                                             double probability) noexcept {
@@ -55,12 +62,12 @@ struct LightEnd {
 
 /// The weights after a subpath has scattered at its last vertex.
 /// \param at       The weights at the vertex.
-/// \param pdf      Density of the new direction, per steradian; 0: mirror or glass.
-/// \param back     Density of the old direction, for a path on the opposite way.
-/// \param cosine   |cosine| of the new direction and the geometric normal; for a mirror
-///                 or glass that of the old direction, so that the factors cancel.
-/// \param merging  \f$\eta\f$.
-/// \return To be passed to arrived().
+/// \param pdf      Density of the new direction, per steradian; 0 for mirror or glass.
+/// \param back     Density of the old direction on the opposite way, per steradian.
+/// \param cosine   |cosine| of the new direction and the geometric normal. At a mirror
+///                 or glass, |cosine| of the old direction, which cancels a factor.
+/// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
+/// \return The weights for arrived().
 // [recursion]
 [[nodiscard]] inline SubpathWeights scattered(const SubpathWeights& at, double pdf,
                                               double back, double cosine,
@@ -69,30 +76,32 @@ struct LightEnd {
     return {1 / pdf, (at.join + merging + back * at.further) * cosine / pdf};
 }
 
-/// The weights at the next vertex.
-/// \param from       The result of scattered().
-/// \param cosine     |cosine| of the direction and the geometric normal.
+/// The weights at the next vertex of a subpath.
+/// \param from       The result of started() or scattered().
+/// \param cosine     |cosine| of the direction and the geometric normal at the vertex.
 /// \param distance2  Squared distance from the last vertex.
 [[nodiscard]] inline SubpathWeights arrived(const SubpathWeights& from, double cosine,
                                             double distance2) noexcept {
     return {from.join * distance2 / cosine, from.further / cosine};
 }
 
-/// The sum in SubpathWeights, for one of the two subpaths of a connection.
+/// The sum of densities in SubpathWeights, for one of the two subpaths of a connection.
 /// \param at       The weights at x.
-/// \param density  Of x for a path from the other vertex, per area.
-/// \param back     Density of the direction from x to the vertex before.
-/// \param merging  \f$\eta\f$.
+/// \param density  Density of x for a path from the other vertex, per area.
+/// \param back     Density of the direction from x to the vertex before x, per
+///                 steradian.
+/// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
 [[nodiscard]] inline double others(const SubpathWeights& at, double density,
                                    double back, double merging) noexcept {
     return density * (at.join + merging + back * at.further);
 }
 // [recursion]
 
-/// The sum for a camera path that hits a lamp.
-/// \param at           The weights at the lamp.
+/// The sum of the densities of all other strategies, relative to the density of a
+/// camera path that hits a lamp.
+/// \param at           The weights of the camera path at the lamp.
 /// \param end          The point of the lamp.
-/// \param probability  Of choosing the lamp.
+/// \param probability  The probability of choosing the lamp.
 // [ends]
 [[nodiscard]] inline double others_of_emission(const SubpathWeights& at,
                                                const LightEnd& end,
@@ -100,15 +109,18 @@ struct LightEnd {
     return probability / end.area * (end.direct * at.join + end.pdf * at.further);
 }
 
-/// The sum for a shadow ray.
-/// \param at           The weights at the surface that asks.
+/// The sum of the densities of all other strategies, relative to the density of a
+/// shadow ray.
+/// \param at           The weights of the camera path at the lit surface.
 /// \param end          The point of the light.
-/// \param probability  Of choosing the light.
-/// \param pdf          Density of the direction to it, for a path from the eye.
-/// \param back         Density of the direction to the eye, for a path from the light.
-/// \param cosine       |cosine| of the direction and the surface's geometric normal.
-/// \param distance2    Squared distance of the two.
-/// \param merging      \f$\eta\f$.
+/// \param probability  The probability of choosing the light.
+/// \param pdf          Density with which the camera path samples the direction of the
+///                     shadow ray, per steradian.
+/// \param back         Density of the direction from the surface to the vertex before,
+///                     for a path from the light, per steradian.
+/// \param cosine       |cosine| of the shadow ray and the surface's geometric normal.
+/// \param distance2    Squared length of the shadow ray.
+/// \param merging      \f$\eta\f$ of SubpathWeights; 0 without merging.
 [[nodiscard]] inline double
 others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double probability,
                      double pdf, double back, double cosine, double distance2,
@@ -119,18 +131,21 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 }
 // [ends]
 
-/// The sum for merging at x, for one of the two subpaths.
-/// \param at       The weights at x.
-/// \param back     Density of the direction from x to the vertex before.
-/// \param merging  \f$\eta\f$, above 0.
+/// The sum of the densities of all strategies that join the subpaths earlier on one of
+/// them, relative to the density of merging at x.
+/// \param at       The weights of the subpath at x.
+/// \param back     Density of the direction from x to the vertex before x, per
+///                 steradian.
+/// \param merging  \f$\eta\f$ of SubpathWeights, above 0.
 [[nodiscard]] inline double others_merged(const SubpathWeights& at, double back,
                                           double merging) noexcept {
     return (at.join + back * at.further) / merging;
 }
 
-/// The balance heuristic for a strategy \cite veach1995.
-/// \param sum  The densities of all other strategies, relative to its own.
-/// \return In [0, 1]; 0 unless the sum is finite.
+/// The weight of a strategy by the balance heuristic \cite veach1995.
+/// \param sum  The sum of the densities of all other strategies, relative to that of
+///             this strategy.
+/// \return In [0, 1]; 0 if the sum is not finite.
 [[nodiscard]] inline double weight_against(double sum) noexcept {
     return std::isfinite(sum) ? 1 / (1 + sum) : 0;
 }
@@ -164,18 +179,20 @@ template <std::floating_point T>
                    double(at.distance) * double(at.distance));
 }
 
-/// How a surface turns light between the vertex before it and a direction.
+/// BSDF, cosines and densities at a vertex, for a direction in which the path could go
+/// on.
 template <std::floating_point T>
 struct TurnT {
     RgbT<T> f{T(0)};   ///< The BSDF, 1/sr; 0 if the normals disagree about the side.
     T shading = T(0);  ///< |cosine| of the direction and the shading normal.
-    double cosine = 0; ///< The same of the geometric normal.
+    double cosine = 0; ///< |cosine| of the direction and the geometric normal.
     double pdf = 0;    ///< Density of the direction, per steradian.
-    double back = 0;   ///< Density of `wo`, for a path on the opposite way.
+    double back = 0;   ///< Density of `wo` on the opposite way, per steradian.
 };
 
-/// The turn at a vertex into a unit direction of the world.
-/// \param transport  What the path carries that has found the vertex.
+/// Computes a TurnT.
+/// \param direction  Unit direction in the world.
+/// \param transport  The quantity that the path carries.
 template <std::floating_point T, Material M>
 [[nodiscard]] TurnT<T> turn(const VertexT<T>& at, const M& material,
                             const Vec3T<T>& direction, Transport transport) {
@@ -192,8 +209,8 @@ template <std::floating_point T, Material M>
 
 } // namespace detail
 
-/// Whether the densities of a LightEnd are known for a light: for lamps, and for lights
-/// that emit from a point.
+/// Whether light_end() supports a type of light. It supports lamps, and lights that
+/// emit from a point.
 template <typename L, typename V = Vec3T<typename L::Scalar>>
 inline constexpr bool has_light_end = requires(const L& light, const V& v) {
     light.lamp.area;
@@ -202,12 +219,12 @@ inline constexpr bool has_light_end = requires(const L& light, const V& v) {
     pdf_emission(light, v, v);
 };
 
-/// The densities at the end of a path on a light.
+/// Computes the densities at the end of a path on a light.
 /// \param world      The closed scene.
-/// \param light      Number of the light; see has_light_end.
-/// \param point      The point.
-/// \param direction  Unit, away from the light.
-/// \param x          The surface that it reaches.
+/// \param light      The index of the light. Its type must satisfy has_light_end.
+/// \param point      The point of the light.
+/// \param direction  Unit direction away from the light.
+/// \param x          The point of the surface that the direction reaches.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] LightEnd light_end(const W& world, std::uint32_t light,
                                  const SurfacePointT<T>& point,

@@ -20,10 +20,10 @@ namespace ljus {
 /// \addtogroup emission
 /// \{
 
-/// The objects with specular lobes, in the order of the scene: the targets of aimed
-/// photons.
+/// The targets of aimed photons: all objects with specular lobes, in the order of the
+/// scene.
 /// \param world  The closed scene.
-/// \param gloss  Whether those that are nearly_specular() count as well.
+/// \param gloss  Whether objects with a nearly_specular() material are also targets.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<ObjectId> specular_objects(const W& world,
                                                                 bool gloss = false) {
@@ -41,16 +41,18 @@ template <AnyWorld W>
 template <std::floating_point T>
 struct AimedPhotonT {
     EmittedPhotonT<T> photon; ///< The photon.
-    ObjectId target;          ///< The photon counts only if this is its first hit.
+    ObjectId target;          ///< The photon counts only if it hits this object first.
 };
 
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
-/// emits \f$1/4\pi\f$ of its flux per steradian, and the photons share the cone of
-/// \f$2\pi(1 - \cos\theta)\f$ steradians in which it sees the ball.
+/// emits \f$1/4\pi\f$ of its flux per steradian. All photons go into the cone of
+/// \f$2\pi(1 - \cos\theta)\f$ steradians around the ball, where theta is half the
+/// opening angle of the cone. The photons share the flux that the light emits into this
+/// cone.
 /// \param light  A point light.
-/// \param ball   The target; the light is outside it.
+/// \param ball   The target. The light must be outside the ball.
 /// \param u      Point of the unit square; chooses the direction in the cone.
-/// \return The photon; its flux is that of all paths together.
+/// \return The photon. Its flux is that of all photons together.
 /// \report{Section 3.2.2.2}
 // [aim_at_ball]
 template <std::floating_point T>
@@ -70,8 +72,8 @@ namespace detail {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< Cone of the object's bounding sphere.
-    bool at_area = false; ///< Whether it aims at the object's area instead.
+    ConeT<T> cone{};      ///< The cone into which the point aims.
+    bool at_area = false; ///< Whether the point aims at the object's area instead.
     T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
 
@@ -80,6 +82,7 @@ struct AimT {
 /// emission is narrower (a spot light, or a lamp inside the bounding sphere), the point
 /// aims at the cone of emission instead.
 /// \param emission  The cone of all directions of emission.
+/// \param from      The point of the light.
 // [aim_at]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] AimT<T> aim_at(const W& world, const ConeT<T>& emission,
@@ -101,25 +104,29 @@ template <AnyWorld W, std::floating_point T>
 }
 // [aim_at]
 
-/// \tparam Aim  How one aims at it, as AimT: its `size` is the weight.
+/// A target that was chosen at random.
+/// \tparam Aim  A description of how to aim at a target, such as AimT. Its member
+///              `size` is the weight.
 template <typename Aim>
 struct ChosenTargetT {
     ObjectId target;            ///< The object.
-    Aim at;                     ///< How one aims at it.
+    Aim at;                     ///< How to aim at the object.
     decltype(Aim::size) sum{0}; ///< Sum of the weights of all targets.
 };
 
-/// Chooses a target in proportion to its weight.
-/// \param aim_of  Called once with each; returns how one aims at it, with the size 0
-///                to exclude it.
+/// Chooses a target at random, with a probability in proportion to its weight.
+/// \param targets   All targets.
+/// \param aim_of    Called once with each target; returns how to aim at it. A size of 0
+///                  excludes the target.
+/// \param u_target  In [0, 1).
 /// \return The target; nothing if all weights are 0.
 template <std::floating_point T, typename AimOf>
 [[nodiscard]] auto choose_target(std::span<const ObjectId> targets, AimOf aim_of,
                                  T u_target) {
     using Chosen = ChosenTargetT<decltype(aim_of(ObjectId{}))>;
     Chosen chosen;
-    // Reservoir sampling: each target replaces the previous one with a probability of
-    // its weight over the sum so far, and u is remapped to [0, 1).
+    // Reservoir sampling: a target replaces the chosen one with a probability that is
+    // its weight over the sum of the weights so far. u is then remapped to [0, 1).
     for (const ObjectId candidate : targets) {
         const auto at = aim_of(candidate);
         if (!(at.size > T(0))) continue;
@@ -138,16 +145,16 @@ template <std::floating_point T, typename AimOf>
 
 template <std::floating_point T>
 struct AimedDirectionT {
-    Vec3T<T> direction{T(0)}; ///< Unit.
-    T pdf = T(0);             ///< Per steradian, with that of the choice of the object.
+    Vec3T<T> direction{T(0)}; ///< Unit vector.
+    T pdf = T(0);             ///< Per steradian, times the probability of the object.
     ObjectId target{};        ///< The object.
 };
 
 /// The random numbers of an aimed photon, in the order in which they are drawn.
 template <std::floating_point T>
 struct AimNumbersT {
-    T probability;        ///< Probability of its light, which was chosen before.
-    Vec2T<T> u_point;     ///< Point of the light, or of a disc before the target.
+    T probability;        ///< Probability of the light, which is chosen first.
+    Vec2T<T> u_point;     ///< Chooses a point of the light; of a disc if it is distant.
     T u_target;           ///< Chooses the target.
     Vec2T<T> u_direction; ///< Chooses the direction.
     T time;               ///< Time of the photon.
@@ -155,12 +162,13 @@ struct AimNumbersT {
 
 template <std::floating_point T>
 struct LeavingAimedT {
-    LeavingPhotonT<T> photon{}; ///< Its flux is over the light's probability.
+    LeavingPhotonT<T> photon{}; ///< Its flux is divided by the light's probability.
     ObjectId target{};          ///< The object at which it is aimed.
 };
 
-/// Aims a photon of a distant light at the discs that the targets' bounding spheres
-/// cast as shadows. Returns nothing if all targets have the radius 0.
+/// Aims a photon of a distant light at a target, uniformly over the cross section of
+/// its bounding sphere.
+/// \return Nothing if all targets have the radius 0.
 template <AnyWorld W, FarLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -185,10 +193,12 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 }
 
 /// Samples a direction from a point of a near light to one of the targets: uniformly in
-/// its cone, or by the area of a flat object.
+/// a cone, or uniformly over the area of a flat object; see aim_at().
 /// \param emission  The cone of all directions of emission.
-/// \return Nothing if all targets have the radius 0, or if the chosen one is seen
-///         edge-on or contains `from`.
+/// \param from      The point of the light.
+/// \param targets   The targets.
+/// \return Nothing if all targets have the radius 0, or if the chosen target is flat
+///         and is seen edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
@@ -201,7 +211,7 @@ sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
     if (at.at_area) {
         const auto seen =
             world.visit_shape(chosen->target, [&]<typename G>(const G& shape) {
-                if constexpr (FlatShape<G>) // which does not move
+                if constexpr (FlatShape<G>) // a flat shape does not move
                     return sample_towards(shape, from, u.u_direction);
                 else
                     return SeenPointT<T>{};
@@ -219,8 +229,9 @@ sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
     return aimed;
 }
 
-/// Aims a photon of a near light. Returns nothing if the target lies behind the light,
-/// or if all targets have the radius 0.
+/// Aims a photon of a near light at a target.
+/// \return Nothing as for sample_aim(), or if the light does not emit towards the
+///         target.
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -240,24 +251,26 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 
 } // namespace detail
 
-/// Aims a photon at one of several objects, uniformly in the cone of the object's
-/// bounding sphere as seen from a point of the light. Wide cones are chosen more often,
-/// so that the density in all cones is one over the sum of the cones. A flat object is
-/// sampled by area instead.
+/// Aims a photon at one of several objects: uniformly in the cone of the object's
+/// bounding sphere as seen from a point of the light. Objects are chosen in proportion
+/// to the solid angles of their cones, so that the density is the same in all cones. A
+/// flat object is sampled uniformly over its area instead. A distant light aims at the
+/// cross sections of the bounding spheres.
 ///
-/// The flux is divided by the density of the direction: for a lamp it is multiplied by
-/// \f$ (\cos\theta / \pi) / p(\omega) \f$, for a point light by
-/// \f$ (1/4\pi) / p(\omega) \f$. A sun aims at the discs that the bounding spheres cast
-/// as shadows. Where objects overlap, a ray belongs to the first one that it hits; the
-/// caller drops photons that were aimed at another.
-/// There are at least one light and one object; six numbers are drawn.
-/// \return The photon; nothing if the target lies behind the light, or if all targets
-///         have the radius 0.
+/// The flux is multiplied by a ratio of two densities: that with which the light emits
+/// in the direction, over that with which this function samples the direction. Because
+/// cones may overlap, the caller must drop a photon that hits another object first.
+/// \param world    The closed scene.
+/// \param choice   The distribution of the lights, at least one.
+/// \param targets  The objects, at least one.
+/// \param stream   Six numbers are drawn, and one more if a shape moves.
+/// \return The photon. Nothing if the light does not emit towards the target, or if all
+///         targets have the radius 0.
 /// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The report's program does not divide by the density of the direction, and
-///          divides by the number of stored photons: a caustic's brightness did not
-///          depend on how much light reached the glass.}
+/// divides by the number of stored photons. The brightness of a caustic therefore does
+/// not depend on how much light reaches the glass.}
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
 aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets,
@@ -281,11 +294,12 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
                            aimed->target};
 }
 
-/// Refuses fractions that do not add up to 1.
-/// \param shares  One per target or light, or none at all.
-/// \param count   Number of targets or lights.
-/// \param of      What they are, for the message.
-/// \throws std::invalid_argument  with the wrong value.
+/// Refuses fractions of the photons that do not add up to 1.
+/// \param shares  One fraction per target or light; or empty, which is accepted.
+/// \param count   The number of targets or lights.
+/// \param of      What `count` counts, for the message.
+/// \throws std::invalid_argument  if the number of fractions is wrong, a fraction is
+///         outside [0, 1], or their sum is not 1.
 inline void check_shares(std::span<const double> shares, std::size_t count,
                          const char* of = "the number of specular objects") {
     if (shares.empty()) return;
@@ -300,10 +314,14 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
     require(std::abs(sum - 1) < 1e-6, "the sum of all shares", sum, "1");
 }
 
-/// Aims a photon at one of several objects, chosen with the given probabilities. The
-/// flux is divided by the probability, so that the mean does not depend on it. The
-/// shares are as check_shares() accepts; without any it does as aim(). One number more
-/// is drawn than by aim().
+/// Aims a photon at one of several objects, which is chosen with given probabilities.
+/// The flux is divided by the probability of the object.
+/// \param world    The closed scene.
+/// \param choice   The distribution of the lights, at least one.
+/// \param targets  The objects, at least one.
+/// \param shares   The probabilities, which must pass check_shares(). If empty, the
+///                 function does the same as aim().
+/// \param stream   With shares, one number more is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>
@@ -315,7 +333,7 @@ aim_by_share(const W& world, const LightChoice& choice,
     double left = double(next_1d<T>(stream));
     std::size_t chosen = 0;
     for (std::size_t k = 0; k < shares.size(); ++k) {
-        if (!(shares[k] > 0)) continue; // never chosen, even by rounding
+        if (!(shares[k] > 0)) continue; // rounding must not choose this target
         chosen = k;
         if (left < shares[k]) break;
         left -= shares[k];

@@ -18,15 +18,16 @@ namespace ljus {
 /// refractivity". Chapter: \ref ch_caustic_budget.
 /// \{
 
-/// The fractions that minimise a sum of variances. If n_k photons give object k the
-/// variance \f$ a_k^2 / n_k \f$, the sum for a given total is least for
-/// \f$ n_k \propto a_k \f$ (Neyman). Because the pilot's a_k may be wrong, some photons
-/// are distributed evenly; the variance is then at most 1/(1 - floor) of the least.
-/// \param scatter  The a_k: finite, at least 0.
-/// \param floor    Fraction distributed evenly, in [0, 1].
-/// \return Fractions with the sum 1, at least floor / size each; equal if all a_k are
-///         0.
-/// \throws std::invalid_argument  with the wrong value.
+/// The fractions of photons that minimise a sum of variances. If n_k photons give
+/// object k the variance \f$ a_k^2 / n_k \f$, the sum of all variances is smallest for
+/// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, a part of the
+/// photons is distributed evenly. With correct a_k, the sum of the variances is then at
+/// most 1/(1 - floor) times the smallest.
+/// \param scatter  The a_k: finite and at least 0.
+/// \param floor    The part that is distributed evenly, in [0, 1].
+/// \return One fraction per object, at least `floor` over the number of objects; the
+///         sum is 1. Equal fractions if all a_k are 0.
+/// \throws std::invalid_argument  if a value is out of range.
 // [share_out]
 [[nodiscard]] inline std::vector<double> share_out(std::span<const double> scatter,
                                                    double floor = 0.1) {
@@ -40,29 +41,30 @@ namespace ljus {
     std::vector<double> shares;
     for (const double a : scatter) {
         const double equal = 1 / double(scatter.size());
-        // Written so that a single object gets exactly 1.
+        // With this formula a single object gets exactly 1.
         shares.push_back(sum > 0 ? floor * equal + (1 - floor) * (a / sum) : equal);
     }
     return shares;
 }
 // [share_out]
 
-/// The results of a pilot pass for one object; its scatters are the a_k of share_out().
+/// The results of a pilot pass for one object. Each *scatter* is the a_k of share_out()
+/// for one measure of the error; see pilot_caustics().
 struct CausticPilot {
     ObjectId object{};      ///< The object.
-    std::size_t stored = 0; ///< Photons of the pilot on diffuse surfaces.
-    double flux = 0;        ///< Luminous part of the object's caustic, W.
-    double area = 0;        ///< Flux over mean irradiance: the caustic's size.
-    double absolute = 0;    ///< Scatter of the irradiance on surfaces, W.
-    double relative = 0;    ///< Scatter relative to its own mean, as an area.
+    std::size_t stored = 0; ///< Number of photons that the pilot stored.
+    double flux = 0;        ///< Luminance of the flux of the object's caustic, W.
+    double area = 0;        ///< Size of the caustic: flux over mean irradiance.
+    double absolute = 0;    ///< Scatter of the irradiance, W.
+    double relative = 0;    ///< Scatter relative to the caustic's mean, as an area.
     double visible = 0;     ///< Scatter relative to all light, as an area.
 };
 
 namespace detail {
 
-/// The irradiance around a photon, from the photons of a map on its side of the
-/// surface.
-/// \param map     The photons; shadow photons do not count.
+/// The irradiance around a photon, on the side of the surface on which it arrived.
+/// \param map     The photons to sum. Shadow photons do not count.
+/// \param radius  Search radius, in scene units.
 /// \return Luminance of the irradiance, in W/m^2.
 template <std::floating_point T>
 [[nodiscard]] double irradiance_around(const PhotonMapT<T>& map, const PhotonT<T>& at,
@@ -79,7 +81,8 @@ template <std::floating_point T>
     return sum / (std::numbers::pi * double(radius) * double(radius));
 }
 
-/// The mean irradiance at photons of a map, from some thousand samples.
+/// The flux-weighted mean of the irradiance around photons, from about a thousand of
+/// them.
 template <std::floating_point T>
 [[nodiscard]] double mean_irradiance(const PhotonMapT<T>& map,
                                      const std::vector<PhotonT<T>>& photons, T radius) {
@@ -93,8 +96,8 @@ template <std::floating_point T>
     return flux > 0 ? lit / flux : 0;
 }
 
-/// Traces the pilot of one object: `paths` photons aimed at it alone, with random
-/// streams that no pass of the picture uses.
+/// Traces the pilot of one object: `paths` photons, all aimed at this object. No pass
+/// of the picture uses the same random streams.
 template <AnyWorld W>
 [[nodiscard]] TracedPhotonsT<typename W::Scalar>
 trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
@@ -111,11 +114,13 @@ template <std::floating_point T>
 struct PilotLightT {
     const PhotonMapT<T>& caustics; ///< Photons of all pilots.
     const PhotonMapT<T>& rest;     ///< Photons of all other light.
-    T radius = T(0);               ///< Search radius for the caustics.
-    T wide = T(0);                 ///< Search radius for the rest.
+    T radius = T(0);               ///< Search radius in `caustics`.
+    T wide = T(0);                 ///< Search radius in `rest`.
     double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
 
     /// Sums the flux and the scatters of an object.
+    /// \param photons  The photons that its pilot stored.
+    /// \param paths    The number of photons that its pilot emitted.
     [[nodiscard]] CausticPilot judge(ObjectId object,
                                      const std::vector<PhotonT<T>>& photons,
                                      long long paths) const {
@@ -123,7 +128,7 @@ struct PilotLightT {
         double lit = 0; // flux times irradiance
         for (const PhotonT<T>& photon : photons) {
             const double flux = luminance(RgbT<double>(photon.flux));
-            if (!(flux > 0)) continue; // E is above 0 below
+            if (!(flux > 0)) continue; // the divisor below might be 0
             const double own = irradiance_around(caustics, photon, radius);
             const double visible =
                 flux / (own + dark + irradiance_around(rest, photon, wide));
@@ -145,24 +150,27 @@ struct PilotLightT {
 } // namespace detail
 
 /// Traces a few photons to each mirror and each glass object, to measure the flux and
-/// the scatter of its caustic. The photons are not used again: an estimate whose
-/// fractions depend on its own photons would be biased.
+/// the scatter of the object's caustic. These photons are not used for the picture,
+/// because an estimate whose fractions depend on its own photons is biased.
 ///
-/// An estimate that sums photons of the flux \f$ \varphi_i \f$ has a variance that over
-/// the whole picture is \f$ \propto \sum_i \varphi_i^2 \f$. If errors count relative to
-/// a light E, each photon contributes \f$ (\varphi_i / E(x_i))^2 \f$. For object k with
-/// n photons, \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. E is 1, or the mean
-/// light of its caustic, or all light plus a tenth of its mean; the tenth bounds errors
-/// in the dark.
+/// The variance of estimates, summed over a picture, is proportional to
+/// \f$ \sum_i \varphi_i^2 \f$, where \f$ \varphi_i \f$ is the flux of photon i. If an
+/// error counts relative to an irradiance E, photon i adds
+/// \f$ (\varphi_i / E(x_i))^2 \f$. The scatter a_k of object k, from a pilot of n
+/// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
+/// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
+/// caustic. For `visible` E is the irradiance of all light, plus a tenth of its mean,
+/// which bounds the errors in the dark.
 /// \param world   The closed scene.
-/// \param pass    The picture's pass; the pilot sends a twentieth of its photons, 500
-///                to 20 000 per object.
-/// \param radius  Radius of the picture's estimates, in scene units; the pilot uses
-///                twice of it. 0: the typical radius of 32 photons of the picture.
-/// \param light   All other light: photons of a general map, or none. Shadow photons do
-///                not count.
+/// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
+///                its photons, 500 to 20 000 per object.
+/// \param radius  Radius of the picture's estimates, in scene units. The pilot searches
+///                within twice this radius. 0: the typical radius of 32 photons of the
+///                picture.
+/// \param light   The photons of a general map, for all other light; may be empty.
+///                Shadow photons do not count.
 /// \param wide    Search radius in `light`; 0: the typical radius of 64 of its photons.
-/// \return One per element of specular_objects().
+/// \return One result per element of specular_objects().
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
 pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
@@ -196,8 +204,7 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     return pilots;
 }
 
-/// Whether a pass has photons enough for a pilot of its lights: at least four times 200
-/// for each.
+/// Whether a pass has enough photons for pilot_lights(): at least 800 per light.
 [[nodiscard]] inline bool affords_pilot(long long photons,
                                         std::size_t lights) noexcept {
     return 800 * static_cast<long long>(lights) <= photons;
@@ -215,18 +222,20 @@ struct AllAlike {
 } // namespace detail
 
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each contributes to a map. A light that no mirror or glass sees, however strong,
-/// then gets few photons of the caustics map: its share is what share_out() would give
-/// by the scatter \f$ a_k^2 \propto \sum_i (w_i \varphi_i)^2 \f$ of the photons that
-/// were stored, but with a floor of a tenth in proportion to power. The variance is
-/// therefore at most ten times that of the choice by power, whatever the pilot misses.
+/// each light contributes to a map. Nine tenths of the photons are distributed as by
+/// share_out(), with the scatter a_k of light k given by
+/// \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the light, where
+/// \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight. One tenth is
+/// distributed in proportion to power. The variance is therefore at most ten times that
+/// of a choice by power, even if the pilot misses some light.
 /// \param world   The closed scene.
-/// \param pass    The picture's pass; the pilot sends a twentieth of its photons, at
-///                least 200 and at most 20 000 per light.
-/// \param map     For which map.
+/// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
+///                its photons, 200 to 20 000 per light.
+/// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
-/// \return One fraction per light with the sum 1, as PhotonPassSettings::light_shares;
-///         none for a single light, or if no photon was stored.
+/// \return One fraction per light, with the sum 1, for
+///         PhotonPassSettings::light_shares. Empty for a single light, or if no photon
+///         was stored.
 template <AnyWorld W, typename Weight = detail::AllAlike>
 [[nodiscard]] std::vector<double> pilot_lights(const W& world, PhotonPassSettings pass,
                                                MapType map = MapType::caustics,
@@ -256,7 +265,9 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
 }
 
 /// Computes PhotonPassSettings::shares.
-/// \return One fraction per object; none for CausticBudget::as_seen.
+/// \param budget  The criterion.
+/// \param pilots  The results of pilot_caustics().
+/// \return One fraction per object; empty for CausticBudget::as_seen.
 [[nodiscard]] inline std::vector<double>
 caustic_shares(CausticBudget budget, std::span<const CausticPilot> pilots) {
     if (budget == CausticBudget::as_seen) return {};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/density_estimate.hpp
-/// \brief The radiance estimate from the photons around a point, or around many.
+/// \brief The radiance from the photons around a point, or around many points.
 
 #include <numbers>
 #include <span>
@@ -17,8 +17,8 @@ namespace ljus {
 
 namespace detail {
 
-/// Whether an estimate processes eight photons at a time: on a Lambertian surface,
-/// unless the square of the radius leaves the range of float.
+/// Whether an estimate processes eight photons at a time. It does so on a Lambertian
+/// surface, unless the square of the radius is outside the range of float.
 template <typename Material, typename K>
 [[nodiscard]] constexpr bool in_lanes(const DensityEstimateOf<K>& gather) noexcept {
     return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
@@ -27,8 +27,8 @@ template <typename Material, typename K>
 
 } // namespace detail
 
-/// The plain counterpart of estimate_radiance() with a fixed radius: one photon at a
-/// time, for any material.
+/// The plain counterpart of estimate_radiance() with a fixed radius. It adds one photon
+/// at a time. The arguments are those of estimate_radiance().
 /// \return Radiance, W/(m^2 sr).
 // [plain estimate]
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
@@ -62,26 +62,30 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \f[ L(x, \omega_o) = \frac{1}{\pi r^2} \sum_i w_i\, f(\omega_o, \omega_i)\,
 ///     \Delta\Phi_i \f]
 ///
-/// The k-th of the k nearest photons only sets the radius; with it in the sum, the
-/// estimate would be too bright by k/(k-1). If there are fewer than k within the
-/// maximum radius, all of them are summed over its disc, and the mean is still right.
+/// where r is the radius, w_i the weight of photon i by the kernel, f the BSDF, and
+/// \f$ \Delta\Phi_i \f$ the flux of the photon. No cosine appears, because flux that
+/// arrives on a surface contains it. With the k nearest photons, the k-th photon sets
+/// the radius and is not summed. If there are fewer than k photons within the largest
+/// radius, all of them are summed and r is the largest radius.
 ///
-/// A photon counts if its normal is within 60 degrees of the surface's and if it lies
-/// in a disc of the given thickness. A photon whose `normal` is 0 matches every
-/// surface. On a ball of radius r or more, the cap within r of a point has the area
-/// \f$ \pi r^2 \f$ of the disc, so the estimate is unbiased. At the edge of a surface
-/// half of the disc lies outside, in a corner three quarters, and the estimate is 1/2
-/// and 1/4 of the right value.
-///
-/// Of the vertex only point.position, point.normal and frame are used; `wo` is in that
-/// frame. `gathered` counts the summed photons.
-/// \return Radiance, W/(m^2 sr); 0 if the k nearest photons all lie within 1e-15 of
-///         the radius from x, where the disc has no area.
-/// \throws std::invalid_argument  for k = 1 or above max_nearest; a radius that check()
-///         refuses is a precondition.
+/// A photon counts if its normal is within 60 degrees of the normal of the surface, and
+/// if it lies in a disc of the given thickness. A photon whose normal is 0 matches
+/// every surface. At an edge, half of the disc lies outside the surface, and the
+/// estimate is half the right value; at a corner it is a quarter.
+/// \param map       The photons.
+/// \param surface   The vertex; point.position, point.normal and frame are used.
+/// \param material  The material at the vertex.
+/// \param wo        Unit direction to the observer, in the frame of the vertex.
+/// \param gather    The settings.
+/// \param kinds     The kinds of photons that count.
+/// \param gathered  A counter. The number of summed photons is added to it.
+/// \return Radiance, W/(m^2 sr). 0 if the k nearest photons lie so close to the point
+///         that the disc has no area.
+/// \throws std::invalid_argument  if k is 1 or above max_nearest. The other settings
+///         must pass check().
 /// \report{Section 3.2.6}
-/// \erratum{The report calls R_i a radiance; it is the BRDF times the photon's flux.
-///          There is no cosine: the flux that arrives on the surface contains it.}
+/// \erratum{The report calls R_i a radiance; it is the BRDF times the flux of the
+/// photon.}
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T> estimate_radiance(const PhotonMapT<T>& map,
                                         const VertexT<T>& surface,
@@ -114,17 +118,19 @@ namespace detail {
 /// A request for an estimate at a point of a diffuse surface.
 template <std::floating_point T>
 struct EstimatePlaceT {
-    Vec3T<T> center{T(0)}; ///< In scene units.
+    Vec3T<T> center{T(0)}; ///< The point, in scene units.
     Vec3T<T> normal{T(0)}; ///< Normal of the surface; compared with those of photons.
-    Vec3T<T> from{T(0)};   ///< As in FluxDiscT: the visible side.
+    Vec3T<T> from{T(0)};   ///< Unit normal on the visible side; see FluxDiscT.
     RgbT<T> brdf{T(0)};    ///< BRDF of the surface, per steradian.
-    RgbT<T> throughput{T(0)}; ///< Throughput of the path; a factor of the result.
-    std::uint32_t item = 0;   ///< Identifies the request to the caller.
+    RgbT<T> throughput{T(0)}; ///< Throughput of the path; for the caller.
+    std::uint32_t item = 0;   ///< Identifies the request; for the caller.
 };
 
-/// Sets a request from a vertex, in place, to avoid a store-forwarding stall.
-/// \param place       The request; its estimate is that of estimate_radiance() with the
-///                    vertex's wo.
+/// Makes a request for the estimate that estimate_radiance() gives at a vertex, for the
+/// direction vertex.wo.
+/// \param place       Receives the request. Writing in place avoids a store-forwarding
+///                    stall.
+/// \param throughput  Throughput of the path.
 /// \param item        Identifies the request to the caller.
 template <std::floating_point T>
 void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
@@ -138,12 +144,15 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
     place.item = item;
 }
 
-/// The estimates of estimate_radiance() at many points, to the last bit. An estimate
-/// waits for memory, first of the tree and then of the photons; here the waits overlap.
-/// \param gather    Radius, kernel, thickness; in_lanes(), and without `nearest`.
-/// \param found     Reusable buffer of the search.
-/// \param give      Called as give(place, radiance) in the order of the requests,
-///                  except for those without a photon.
+/// Computes estimate_radiance() at many points, with the same results to the last bit.
+/// It is faster, because the waits for memory overlap.
+/// \param places    The requests.
+/// \param gather    The settings. They must satisfy in_lanes(); `nearest` must be 0.
+/// \param kinds     The kinds of photons that count.
+/// \param gathered  A counter. The number of photons in the discs is added to it.
+/// \param found     A buffer for the search, which can be used again.
+/// \param give      Called as give(place, radiance), in the order of the requests. A
+///                  request without photons is left out.
 template <std::floating_point T, KernelLike<T> K, typename Give>
 void estimates_together(const PhotonMapT<T>& map,
                         std::span<const EstimatePlaceT<T>> places,

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_estimate.hpp
-/// \brief Settings of density estimates, and the irradiance estimate from the photons
-/// around a point.
+/// \brief The settings of density estimates, and the irradiance from the photons around
+/// a point.
 
 #include <array>
 #include <cmath>
@@ -20,43 +20,47 @@ namespace ljus {
 /// \addtogroup photon_map
 /// \{
 
-/// Largest k of an estimate with the k nearest photons.
+/// The largest number k of an estimate with the k nearest photons.
 inline constexpr std::size_t max_nearest = 512;
 
 namespace detail {
 
 template <typename K>
 inline constexpr K default_kernel{};
-/// The library's kernel of least variance.
+/// The kernel with the least variance at equal bias.
 template <>
 inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 
 } // namespace detail
 
 /// Settings of a density estimate.
-/// \tparam K  Kernel, for one of the library's, chosen at run time; or a type of your
-///            own that is a kernel: see KernelLike.
+/// \tparam K  Kernel, for a kernel of the library that is chosen at run time; or your
+///            own type of kernel, see KernelLike.
 template <KernelLike K>
 struct DensityEstimateOf {
-    float radius = 0.1f;     ///< In scene units, from 1e-15 to 1e15.
-    std::size_t nearest = 0; ///< k, at most this many within the radius; 0: all.
+    float radius = 0.1f; ///< In scene units, from 1e-15 to 1e15.
+    /// 0: all photons within the radius. Otherwise k, the number of nearest photons
+    /// within the radius.
+    std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight by distance.
-    float thickness = 0.5f; ///< Half the height of the disc over its radius; excludes
-                            ///< photons of parallel walls. At 0.5 the disc contains the
-                            ///< surface of any ball of its radius or larger.
+    /// Half the height of the disc over its radius. A small value excludes photons of
+    /// parallel walls. On a ball whose radius is at least that of the disc, 0.5 is
+    /// enough to contain the surface within the radius.
+    float thickness = 0.5f;
 };
-using DensityEstimateSettings = DensityEstimateOf<Kernel>; ///< With a listed kernel.
+/// DensityEstimateOf with a kernel of the library.
+using DensityEstimateSettings = DensityEstimateOf<Kernel>;
 
 namespace detail {
 
-/// Refuses a k without an estimate.
+/// Refuses a number of nearest photons for which there is no estimate.
 inline void check_nearest(std::size_t nearest) {
     require(nearest != 1 && nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
 
-/// Refuses a radius, thickness or k that gives no estimate.
+/// Refuses a radius, a thickness or a number of nearest photons out of range.
 template <typename K>
 void check_disc(const DensityEstimateOf<K>& gather) {
     require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
@@ -67,9 +71,9 @@ void check_disc(const DensityEstimateOf<K>& gather) {
 
 } // namespace detail
 
-/// Refuses settings that give no estimate.
-/// \throws std::invalid_argument  with name and value; also for a user's kernel whose
-///         mean is not 1.
+/// Checks the settings of an estimate.
+/// \throws std::invalid_argument  if a value is out of range, or if the mean of a
+///         kernel of your own is not 1.
 template <typename K>
 void check(const DensityEstimateOf<K>& gather) {
     detail::check_disc(gather);
@@ -87,13 +91,14 @@ namespace detail {
 
 /// A sum over the photons of a disc.
 struct DiscSum {
-    RgbT<double> sum{0}; ///< In double: float would lose the last terms.
+    RgbT<double> sum{0}; ///< In double, because float would lose the last terms.
     double radius2 = 1;  ///< Squared radius of the disc.
 };
 
-/// Divides a sum over a disc by the disc's area.
-/// \param sum      Sum of weight times flux, W; possibly times a BRDF.
-/// \return W/m^2; or W/(m^2 sr).
+/// Divides a sum over a disc by the area of the disc.
+/// \param sum      Sum of weight times flux in W, or of weight times flux times BRDF.
+/// \param radius2  Squared radius of the disc.
+/// \return Irradiance in W/m^2 or, with a BRDF, radiance in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> per_area(const RgbT<double>& sum, double radius2) noexcept {
     return RgbT<T>(sum / (std::numbers::pi * radius2));
@@ -110,16 +115,18 @@ struct OfKinds {
 
 /// The photons of an estimate with the k nearest.
 struct NearestPhotons {
-    std::span<const Neighbor> photons{}; ///< Unsorted.
+    std::span<const Neighbor> photons{}; ///< The photons, in no particular order.
     double radius2 = 0;                  ///< Squared radius of their disc.
 };
 
-/// Finds the k nearest photons for an estimate. The k-th sets the radius and is left
-/// out. If there are fewer than k within `radius`, it returns all of them.
+/// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is
+/// left out. If there are fewer than k photons within `radius`, all of them are
+/// returned.
 /// \param point   Point of a surface; its position and normal are used.
-/// \param room    Has k elements, at most max_nearest.
-/// \param wanted  Called as wanted(index, record); whether the photon counts. Photons
-///                that are turned_away() never count.
+/// \param radius  The largest radius, in scene units.
+/// \param room    Space for k elements, at most max_nearest.
+/// \param wanted  wanted(index, record) returns whether the photon counts. Photons that
+///                are turned_away() never count.
 template <std::floating_point T, typename Wanted>
 [[nodiscard]] LJUS_CORE_CLONES NearestPhotons
 nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
@@ -137,15 +144,18 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
 }
 
 /// Sums over the k nearest photons, one by one.
-/// \param point     The point; its position and normal are used.
-/// \param factor    Called with a PhotonRecordT; returns a factor of its flux.
-/// \return The sum; 0 if all k photons lie at one point and the disc has no area.
+/// \param point     Point of a surface; its position and normal are used.
+/// \param gather    The settings; `nearest` is k.
+/// \param kinds     The kinds of photons that count.
+/// \param gathered  A counter. The number of summed photons is added to it.
+/// \param factor    Called with a PhotonRecordT; returns a factor of the flux.
+/// \return The sum; 0 if all k photons lie at one point, where the disc has no area.
 template <std::floating_point T, KernelLike<T> K, typename Factor>
 [[nodiscard]] DiscSum
 sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
                const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                std::uint64_t& gathered, const Factor& factor) {
-    check_nearest(gather.nearest); // the room below is of max_nearest
+    check_nearest(gather.nearest); // there is room for max_nearest only
     const double widest2 = double(gather.radius) * double(gather.radius);
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] =
@@ -182,8 +192,11 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 
 /// Sums the flux that arrives on one side of a surface within a fixed radius, eight
 /// photons at a time.
-/// \param side      Unit vector; photons that travel against it count.
-/// \param gathered  Counts the photons in the disc, on either side.
+/// \param point     Point of a surface; its position and normal are used.
+/// \param side      Unit normal on this side. Photons that travel against it count.
+/// \param kinds     The kinds of photons that count.
+/// \param gathered  A counter. The number of photons in the disc, on both sides, is
+///                  added to it.
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] DiscSum flux_within(const PhotonMapT<T>& map,
                                   const SurfacePointT<T>& point, const Vec3T<T>& side,
@@ -201,21 +214,28 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// \f[ E(x) = \frac{1}{\pi r^2} \sum_i w_i\, \Delta\Phi_i \f]
 ///
-/// estimate_radiance() documents which photons count; on a Lambertian surface it is
-/// this irradiance times the BRDF. No scene, material or vertex is needed, so photons
-/// from elsewhere will do: copy their position, direction, flux and kind into Photon.
-/// The i-th record of the map belongs to photons[map.tree.point_ids()[i]], which may
-/// have data of its own.
+/// where r is the radius, w_i the weight of photon i by the kernel, and
+/// \f$ \Delta\Phi_i \f$ its flux. estimate_radiance() explains which photons count.
+///
+/// The function needs no scene, so that photons of another program can be used: copy
+/// their position, direction, flux and kind into Photon. The i-th record of the map
+/// belongs to photons[map.tree.point_ids()[i]].
 ///
 ///     const PhotonMap map = make_photon_map(photons);
 ///     const Rgb E = estimate_irradiance(map, {.position = x, .normal = n}, n,
 ///                                       DensityEstimateSettings{.radius = 0.1f});
 ///     const Rgb L = albedo / pi * E; // radiance of a Lambertian surface
 ///
-/// The point's normal is compared with those of the photons; `side` is that normal or
-/// its opposite, and photons that travel against it count.
+/// \param map     The photons.
+/// \param point   Point of a surface. Its normal is compared with the normals of the
+///                photons.
+/// \param side    The normal of the point or its opposite. Photons that travel against
+///                `side` count.
+/// \param gather  The settings.
+/// \param kinds   The kinds of photons that count.
 /// \return W/m^2; 0 without photons.
-/// \throws std::invalid_argument  for a radius, thickness or k that check() refuses.
+/// \throws std::invalid_argument  if the radius, the thickness or the number of nearest
+///         photons is out of range.
 /// \report{Section 3.2.6}
 template <std::floating_point T, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T>

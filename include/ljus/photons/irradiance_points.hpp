@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_points.hpp
-/// \brief Irradiance precomputed at some photons, for gather rays to look up.
+/// \brief Irradiance that is precomputed at the positions of some photons, for gather
+/// rays.
 
 #include <algorithm>
 #include <array>
@@ -27,8 +28,8 @@ namespace ljus {
 /// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< From all light, including direct; W/m^2.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the lit side.
+    RgbT<T> irradiance{T(0)};          ///< From all light, direct light too; W/m^2.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal on the lit side.
 };
 
 /// Points with known irradiance, in a tree.
@@ -36,8 +37,8 @@ template <std::floating_point T>
 struct IrradiancePointsT {
     KdTree8T<T> tree;                      ///< Positions.
     std::vector<IrradianceAtT<T>> records; ///< In the tree's order.
-    T radius = T(0); ///< A lookup uses no point farther away than this.
-    T disc = T(0);   ///< Maximum radius of an estimate.
+    T radius = T(0); ///< Largest distance of a lookup to a point, in scene units.
+    T disc = T(0);   ///< Largest radius of an estimate, in scene units.
 
     /// Whether there are no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -52,9 +53,8 @@ template <std::floating_point T>
     return PhotonRecordT<T>(map.records[index]).kind == kind;
 }
 
-/// Whether a photon of a map becomes a lookup point: every n-th one in the order of
-/// emission, which is random. In the tree's order, dense regions would have too many
-/// points, and the mean over a surface would be too small.
+/// Whether a photon of a map becomes a lookup point. Every n-th photon in the order of
+/// emission does; this order does not depend on the positions of the photons.
 template <std::floating_point T>
 [[nodiscard]] bool is_point(const PhotonMapT<T>& map, std::size_t index, int every) {
     return map.tree.point_ids()[index] % static_cast<std::size_t>(every) == 0;
@@ -67,7 +67,10 @@ template <std::floating_point T>
     return false;
 }
 
-/// Whether a point lies above or below a disc, which is as high as its radius.
+/// Whether a point lies above or below a disc whose height is its radius.
+/// \param way      The vector from the centre of the disc to the point.
+/// \param normal   Unit normal of the disc.
+/// \param radius2  Squared radius of the disc.
 template <std::floating_point T>
 [[nodiscard]] bool leaves_disc(const Vec3T<T>& way, const Vec3T<T>& normal,
                                T radius2) noexcept {
@@ -78,13 +81,15 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The irradiance on one side of a surface from the nearest photons, with
-/// Epanechnikov's kernel. Unlike the overload without a scene, it can correct for edges
-/// of the surface. It counts the photons in a disc that is half as high as it is wide,
-/// which leaves out those of a parallel wall nearby. Among them, only those count that
-/// arrived on the side in question. Otherwise the light in a hollow ball would shine
-/// through its wall, because some of it grazes the wall within the disc.
-/// The normal is a unit vector on that side; the radius, in scene units, is the largest
-/// one. wanted(index of a record) says whether a photon counts.
+/// Epanechnikov's kernel. It counts photons that arrived on this side, in a disc whose
+/// height is its radius. With settings.edges the sum is divided by part_on_surface().
+/// \param world     The closed scene.
+/// \param map       The photons.
+/// \param vertex    The point of the surface.
+/// \param normal    Unit normal on the side of the irradiance.
+/// \param settings  The number of photons, and whether edges are corrected.
+/// \param radius    The largest radius of the disc, in scene units.
+/// \param wanted    wanted(index of a record) returns whether the photon counts.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Wanted>
 [[nodiscard]] RgbT<T>
@@ -92,7 +97,7 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
                     const Vec3T<T>& normal, const IrradiancePointSettings& settings,
                     T radius, const Wanted& wanted) {
     // [estimate_irradiance]
-    // The shape's own normal, as for photons; their directions tell the side.
+    // Photons have the normal of the shape. Their directions give the side.
     const auto counts = [&](std::uint32_t i, const auto&) { return wanted(i); };
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] = detail::nearest_photons(
@@ -122,8 +127,12 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
 
 namespace detail {
 
-/// The irradiance from all lights at a lookup point, its mean while the shutter is
-/// open: if something moves, each shadow ray has a time of its own.
+/// The irradiance from all lights at a lookup point: the mean over the time for which
+/// the shutter is open.
+/// \param resting  The point at time 0.
+/// \param rays     Number of shadow rays per light. If a shape moves, the rays have
+///                 different times.
+/// \param context  Its stream gives random numbers.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> direct_at_point(const W& world, const VertexT<T>& resting,
@@ -151,11 +160,14 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return direct(resting, rays);
 }
 
-/// The irradiance at a lookup point: direct light by shadow rays, which give sharp
-/// shadows; caustics and indirect light from the maps.
-/// \param general   The general map; its indirect photons count, unless they are lookup
+/// The irradiance at a lookup point: direct light by shadow rays, caustics and indirect
+/// light from the maps.
+/// \param general   The general map. Its indirect photons count, except for lookup
 ///                  points.
-/// \param vertex    The point at time 0, seen from the side of the irradiance.
+/// \param caustics  The caustics map; may be empty.
+/// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
+/// \param radius    The largest radius of an estimate, in scene units.
+/// \param context   Its stream gives random numbers.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
@@ -187,8 +199,15 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 } // namespace detail
 
-/// Precomputes the irradiance at every n-th photon of the general map, from its
-/// indirect light, the caustics map, which may be empty, and shadow rays.
+/// Precomputes the irradiance at every n-th photon of the general map. It is the sum of
+/// direct light by shadow rays, of indirect light from the general map, and of
+/// caustics.
+/// \param world     The closed scene.
+/// \param general   The general map.
+/// \param caustics  The caustics map; may be empty.
+/// \param settings  The settings.
+/// \param seed      Seed of the random streams.
+/// \param threads   As in ParallelSettings.
 /// \return The points, the same for any number of threads.
 /// \cost About 10 microseconds per point.
 template <AnyWorld W, std::floating_point T>
@@ -210,7 +229,7 @@ template <AnyWorld W, std::floating_point T>
         Vec3T<T> normal = glm::normalize(Vec3T<T>(record.normal));
         if (photon_side(record.direction, normal) < 0) normal = -normal;
         records[i].normal = normal;
-        // A photon does not store its surface; a short ray finds it.
+        // A photon does not store its surface. A short ray finds the surface.
         const auto vertex =
             detail::vertex_below(world, positions[i], normal, T(1e-3) * radius);
         if (!vertex) return;
@@ -224,7 +243,7 @@ template <AnyWorld W, std::floating_point T>
 
     IrradiancePointsT<T> points;
     points.radius = points.disc = radius;
-    // Shadows hold few points if these are where direct light lands as well.
+    // Direct photons are missing in shadows, where points are therefore far apart.
     if (settings.radius == 0 && detail::has_direct(general))
         points.radius =
             typical_radius(general, std::size_t(std::min(2 * settings.every, 511)));
@@ -235,9 +254,12 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest lookup point with a similar normal, within a disc half
-/// as high as it is wide. `normal` is a unit vector on the side in question.
-/// \return W/m^2; nothing if there is no such point nearby.
+/// The irradiance at the nearest lookup point with a similar normal. The point must lie
+/// in a disc of radius points.radius, whose height is its radius.
+/// \param points    The lookup points.
+/// \param position  A point of a surface.
+/// \param normal    Unit normal on the side of the irradiance.
+/// \return W/m^2; nothing if there is no such lookup point.
 // [irradiance_at]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> irradiance_at(const IrradiancePointsT<T>& points,

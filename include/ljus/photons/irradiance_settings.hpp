@@ -14,15 +14,18 @@ namespace ljus {
 
 /// Settings of precomputed irradiance.
 struct IrradiancePointSettings {
-    int every = 6; ///< Every n-th photon becomes a lookup point and is left out of the
-                   ///< estimates; at least 2.
+    /// The n for which every n-th photon becomes a lookup point; at least 2. Estimates
+    /// leave out these photons.
+    int every = 6;
     std::size_t nearest = 32; ///< Photons per estimate, 2 to 512.
-    float radius = 0;    ///< Their maximum radius, in scene units; 0: four times their
-                         ///< typical radius.
-    int shadow_rays = 4; ///< Per light, for direct light; at least 1.
-    int least = 0;       ///< Fewest indirect photons of the map: with fewer, no gather
-                         ///< ray ends at a point; it goes on as a path does.
-    bool edges = true;   ///< Divide by the fraction of the disc on the shape.
+    /// Largest radius of an estimate, in scene units; 0: four times the typical radius
+    /// of `nearest` photons.
+    float radius = 0;
+    int shadow_rays = 4; ///< Shadow rays per light and point; at least 1.
+    /// If the map has fewer indirect photons than this, gather rays use no lookup
+    /// points and continue as paths.
+    int least = 0;
+    bool edges = true; ///< Divide an estimate by part_on_surface().
 };
 
 /// \}

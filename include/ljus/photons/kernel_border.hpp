@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/kernel_border.hpp
-/// \brief The fraction of a kernel's disc that lies on a surface, near its border.
+/// \brief The fraction of a kernel's disc that lies on a surface, for points near the
+/// edge of the surface.
 
 #include <cmath>
 #include <numbers>
@@ -15,9 +16,9 @@ namespace ljus {
 /// \{
 
 /// The fraction of Epanechnikov's kernel on one side of a straight line: the integral
-/// of \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from -1 to s.
-/// \param s  Signed distance from the centre to the line over the radius; negative if
-///           the centre lies beyond the line.
+/// of \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from t = -1 to s.
+/// \param s  Distance from the centre of the disc to the line, over the radius. It is
+///           negative if the centre lies on the other side.
 /// \return 0 for s <= -1, 1/2 at s = 0, 1 for s >= 1.
 // [kernel_part]
 template <std::floating_point T>
@@ -32,9 +33,9 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Finds the surface near a point by a short ray.
+/// Finds the surface near a point by a short ray against the normal.
 /// \param height  The ray starts at this height above the point, and ends as far below.
-/// \return The vertex; nothing if there is no surface.
+/// \return The vertex; nothing if the ray hits nothing.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<VertexT<T>>
 vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T height) {
@@ -48,8 +49,8 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
     return vertex;
 }
 
-/// Whether a surface continues at a point: a short ray from above it hits a surface of
-/// the same normal.
+/// Whether a surface continues at a point. It does if vertex_below() finds a surface
+/// with the same normal.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {
@@ -59,13 +60,16 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// The fraction of a kernel's disc that lies on the surface. Each straight edge of the
-/// shape cuts off a segment, unless another surface continues there, as at the diagonal
-/// of a wall of two triangles. If several edges cut the disc, their fractions are
-/// multiplied, which is exact for a product kernel and close for this one.
-/// The unit normal is on the side of the irradiance; the radius is in scene units.
+/// The fraction of a kernel's disc that lies on the surface. A straight edge of the
+/// shape cuts off a segment of the disc, unless another surface continues beyond the
+/// edge. If several edges cut the disc, their fractions are multiplied, which is an
+/// approximation.
+/// \param world   The closed scene.
+/// \param vertex  The centre of the disc.
+/// \param normal  Unit normal on the side of the irradiance.
+/// \param radius  Radius of the disc, in scene units.
 /// \return In (0, 1]; 1 for shapes without straight edges.
-/// \cost A ray per edge that cuts the disc.
+/// \cost One ray per edge that cuts the disc.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T part_on_surface(const W& world, const VertexT<T>& vertex,
                                 const Vec3T<T>& normal, T radius) {

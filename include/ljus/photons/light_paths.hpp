@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/light_paths.hpp
-/// \brief Paths from the lights that keep their vertices, to be joined with paths from
-/// the eye.
+/// \brief Light paths with their vertices, which are joined with paths from the eye.
 
 #include <numbers>
 #include <span>
@@ -18,24 +17,24 @@ namespace ljus {
 /// \addtogroup subpath_weights
 /// \{
 
-/// Settings of the light paths, and of their joints with other paths.
+/// Settings of the light paths, and of their joints with paths from the eye.
 struct LightPathSettings {
-    long long paths = 100000;    ///< N, at least 1.
-    float radius = 0.02f;        ///< Of merging, in scene units; 0: none.
+    long long paths = 100000;    ///< Number of light paths, at least 1.
+    float radius = 0.02f;        ///< Radius of merging, in scene units; 0: no merging.
     int max_depth = 100;         ///< Surfaces between a light and the eye, at least 1.
     std::uint64_t seed = 1;      ///< Seed of the random streams.
     std::uint64_t iteration = 0; ///< Index of the repetition.
     int threads = 0;             ///< As in ParallelSettings.
 
-    /// \f$\eta = N \pi r^2\f$: the number of paths that are expected in a disc, for a
-    /// density of 1 per area.
+    /// The term \f$\eta\f$ of SubpathWeights: the number of paths times the area of a
+    /// disc with the merging radius.
     [[nodiscard]] double merging() const noexcept {
         return double(paths) * std::numbers::pi * double(radius) * double(radius);
     }
 };
 
-/// Refuses invalid settings.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings of light paths.
+/// \throws std::invalid_argument  if a number is out of range.
 inline void check(const LightPathSettings& settings) {
     require_at_least("the number of light paths", settings.paths, 1);
     require_at_least("max_depth", settings.max_depth, 1);
@@ -43,25 +42,25 @@ inline void check(const LightPathSettings& settings) {
             "the merging radius", settings.radius, "finite and at least 0");
 }
 
-/// A vertex of a light path: a photon that knows its surface and its weights
+/// A vertex of a light path: a photon with the data of its surface and with its weights
 /// \cite lafortune1993.
 template <std::floating_point T>
 struct LightVertexT {
-    VertexT<T> vertex{};      ///< The surface, which is not only specular.
-    RgbT<T> flux{T(0)};       ///< W that arrive, as in a PhotonT.
-    SubpathWeights weights{}; ///< At the vertex.
-    int depth = 0;            ///< Surfaces from the light to here.
-    /// Heckbert's letters of a path from the light to this vertex and on to one more
-    /// diffuse surface, the last surface first: "DD...L".
+    VertexT<T> vertex{};      ///< The surface. It has a lobe that is not specular.
+    RgbT<T> flux{T(0)};       ///< The flux that arrives, in W, as in a PhotonT.
+    SubpathWeights weights{}; ///< The weights at the vertex.
+    int depth = 0;            ///< Number of surfaces from the light to this vertex.
+    /// Heckbert's letters of a path from another diffuse surface by this vertex back to
+    /// the light: "DD...L".
     std::string letters{};
 };
 
 /// Light paths with their vertices.
 template <std::floating_point T>
 struct LightPathsT {
-    std::vector<LightVertexT<T>> vertices{}; ///< Path by path.
+    std::vector<LightVertexT<T>> vertices{}; ///< The vertices, path by path.
     std::vector<std::size_t> last{};         ///< One past the last vertex of each path.
-    KdTree8T<T> tree{};                      ///< Over the vertices, if they can merge.
+    KdTree8T<T> tree{}; ///< A tree over the vertices; empty without merging.
 
     /// The vertices of one path.
     /// \param u  In [0, 1); chooses the path.
@@ -77,12 +76,12 @@ namespace detail {
 
 template <std::floating_point T>
 struct LightStartT {
-    PathStateT<T> path{};     ///< Its ray and flux, of all paths together.
-    SurfacePointT<T> point{}; ///< Where it starts; without a normal at a point light.
+    PathStateT<T> path{};     ///< Ray, and flux not yet divided by the number of paths.
+    SurfacePointT<T> point{}; ///< The start; its normal is 0 for a point light.
     ChosenLightT<T> light{};  ///< Number and probability of the light.
 };
 
-/// Starts a light path as emit() does, and keeps its point.
+/// Starts a light path as emit() does. The result also has the point of the light.
 /// \param stream  Five numbers are drawn.
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] auto start_light_path(const W& world, Stream& stream) {
@@ -138,10 +137,9 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 }
 // [light path]
 
-/// Refuses lights, shapes and materials on which light paths cannot be joined with
-/// others.
-/// \throws std::invalid_argument  with the number of the light, of moving shapes, or of
-///         materials that disperse light.
+/// Refuses lights, shapes and materials that light paths do not support.
+/// \throws std::invalid_argument  if a light is neither a lamp nor a point nor a spot,
+///         a shape moves, or a material disperses light.
 template <AnyWorld W>
 [[gnu::cold]] void require_joints(const W& world) {
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
@@ -167,11 +165,11 @@ template <AnyWorld W>
 
 /// Traces light paths by several threads.
 /// \param world     The closed scene.
-/// \param settings  How many, and how they can be joined.
-/// \return The paths, the same for any number of threads; none without a light.
+/// \param settings  The settings.
+/// \return The paths, the same for any number of threads; empty if there is no light.
 /// \throws std::invalid_argument  if a setting is out of range, a light is neither a
 ///         lamp nor a point nor a spot, a shape moves, or a material disperses light.
-/// \cost Some 350 bytes per vertex.
+/// \cost About 350 bytes per vertex.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] LightPathsT<typename W::Scalar>
 trace_light_paths(const W& world, const LightPathSettings& settings) {

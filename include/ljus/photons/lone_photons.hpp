@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/lone_photons.hpp
-/// \brief The photons of a map that have hardly any others around them.
+/// \brief The photons of a map that have few other photons around them.
 
 #include <array>
 #include <vector>
@@ -13,19 +13,19 @@ namespace ljus {
 /// \addtogroup photon_map
 /// \{
 
-/// A photon with fewer others within the radius of an estimate is lone.
+/// A photon is *lone* if fewer than this number of other photons lie within the radius
+/// of an estimate.
 inline constexpr std::size_t lone_others = 3;
 
-/// The lone photons of a map. An estimate shows each of them as a disc that differs
-/// from its surroundings. If its flux is spread over a wider disc in place of that one,
-/// the disc is fainter and no light is lost, except where it ends beyond an edge. The
-/// radius of a photon depends on the photons around it, as in a variable kernel
-/// estimate \cite silverman1986, and not on where the estimate is made.
+/// The lone photons of a map. An estimate shows a lone photon as a visible disc. If the
+/// flux of the photon is spread over a wider disc, the disc is fainter. The flux stays
+/// the same, except where the disc reaches beyond an edge. This is a variable kernel
+/// estimate \cite silverman1986, in which each photon has its own radius.
 /// \param map     The photons.
-/// \param radius  Of the estimate, in scene units.
-/// \return A map of them alone, and all of their data; empty if there are none.
-/// \cost A search for each photon that has fewer than `lone_others` others within the
-///       radius among the eight of its block.
+/// \param radius  The radius of the estimate, in scene units.
+/// \return A map of the lone photons, with all their data; empty if there are none.
+/// \cost A search for each photon, except for those that have at least `lone_others`
+///       other photons within the radius among the eight photons of their block.
 // [lone_photons]
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] PhotonMapT<T> lone_photons(const PhotonMapT<T>& map,

@@ -13,19 +13,20 @@
 namespace ljus {
 
 /// \defgroup photon Photons
-/// \brief Section 2.3: the content of a photon map.
+/// \brief Section 2.3: the photons of a photon map.
 /// \{
 
-/// The path of a photon, in Heckbert's notation \cite heckbert1990.
+/// The kind of a photon, by its path in Heckbert's notation \cite heckbert1990.
 enum class PhotonKind : std::uint8_t {
-    direct,   ///< L D: straight from its light.
-    caustic,  ///< L S+ D: by mirrors and glass only.
-    indirect, ///< L ... D ... D: by a diffuse surface or by fog before.
-    shadow,   ///< Carries no flux; marks a surface that is in shadow.
-    fog       ///< Scattered in fog; in a volume map, see \ref volume_photons.
+    direct,   ///< L D: it comes straight from its light.
+    caustic,  ///< L S+ D: it has met mirrors and glass only.
+    indirect, ///< L ... D ... D: it has met a diffuse surface or fog before.
+    shadow,   ///< It marks a surface that is in shadow, and carries no light.
+    fog       ///< Fog scatters it; see \ref volume_photons.
 };
 
-/// A set of kinds, one bit each: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16 fog.
+/// A set of kinds. Each kind has one bit: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16
+/// fog.
 struct PhotonKinds {
     std::uint8_t bits = 0; ///< The kinds in the set.
 
@@ -34,8 +35,8 @@ struct PhotonKinds {
         return (bits >> static_cast<int>(kind) & 1) != 0;
     }
 };
-inline constexpr PhotonKinds all_kinds{15};  ///< Every photon at a surface.
-inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
+inline constexpr PhotonKinds all_kinds{15};  ///< All kinds at surfaces.
+inline constexpr PhotonKinds light_kinds{7}; ///< Direct, caustic and indirect.
 
 /// The set of a single kind.
 [[nodiscard]] constexpr PhotonKinds one_kind(PhotonKind kind) noexcept {
@@ -44,8 +45,8 @@ inline constexpr PhotonKinds light_kinds{7}; ///< All but shadow photons.
 
 namespace detail {
 
-/// A normal in three bytes, in steps of 1/127: its error is below half a degree. Zero,
-/// for a photon of unknown surface, matches every surface.
+/// A normal in three bytes, in steps of 1/127. Its error is below half a degree. A
+/// normal of 0 belongs to a photon whose surface is unknown, and matches every surface.
 using SmallNormal = glm::vec<3, std::int8_t>;
 
 } // namespace detail
@@ -58,11 +59,10 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Whether a photon's normal differs by 60 degrees or more from another one, as on the
-/// next wall of a corner or on the back of a thin wall. On a ball, photons up to a
-/// radius away belong to the same surface.
-/// \param photon  Normal of the photon; if it is 0, the result is false.
-/// \param normal  Unit normal.
+/// Whether the normal of a photon differs by more than 60 degrees from another normal,
+/// for example on the next wall of a corner or on the back of a thin wall.
+/// \param photon  Normal of the photon. If it is 0, the result is false.
+/// \param normal  The other normal; unit vector.
 // [turned_away]
 template <std::floating_point T>
 [[nodiscard]] bool turned_away(const SmallNormal& photon,
@@ -76,21 +76,22 @@ template <std::floating_point T>
 
 /// A photon at a surface, or where fog scatters it.
 /// \report{Section 2.3}
-/// \erratum{The report gives a photon a radiance; it carries flux, in W.}
+/// \erratum{The report says that a photon has a radiance. A photon carries flux, in W.}
 template <std::floating_point T>
 struct PhotonT {
     Vec3T<T> position{T(0)};  ///< In scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
-    RgbT<T> flux{T(0)};       ///< W that arrive; for a shadow photon, W occluded; in
-                              ///< fog, W that are scattered.
-    std::uint16_t light = 0;  ///< Index of its light; in fog, of the medium.
-    PhotonKind kind = PhotonKind::direct; ///< Its path so far.
+    /// The flux that arrives, in W. For a shadow photon it is the flux that is
+    /// occluded; in fog, the flux that is scattered.
+    RgbT<T> flux{T(0)};
+    std::uint16_t light = 0; ///< Index of the light; in fog, of the medium.
+    PhotonKind kind = PhotonKind::direct; ///< The kind.
     detail::SmallNormal normal{0};        ///< Normal of the surface; in fog, 0.
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
-/// The side of a surface on which a photon arrives: +1 for that of the normal, -1 for
-/// the other.
+/// The side of a surface on which a photon arrives: +1 for the side of the normal, -1
+/// for the other side.
 // [photon_side]
 template <std::floating_point T>
 [[nodiscard]] int photon_side(const Vec3T<T>& direction,
@@ -99,17 +100,17 @@ template <std::floating_point T>
 }
 // [photon_side]
 
-/// Where the emitted flux of a photon pass went; in W, summed in double.
-///
-/// For each path, absorbed + escaped + cut + roulette = emitted. `roulette` is what
-/// terminated photons lost minus what survivors gained, and what photons lost minus
-/// what they gained when a wavelength was chosen; its mean is 0.
+/// What became of the flux that a photon pass emitted, in W. For each path, absorbed +
+/// escaped + cut + roulette = emitted.
 struct FluxAudit {
-    RgbT<double> emitted{0};  ///< By the lights.
-    RgbT<double> absorbed{0}; ///< By materials and media.
-    RgbT<double> escaped{0};  ///< Left the scene.
-    RgbT<double> cut{0};      ///< Lost at the depth limit.
-    RgbT<double> roulette{0}; ///< Lost minus gained by roulette.
+    RgbT<double> emitted{0};  ///< Flux that lights have emitted.
+    RgbT<double> absorbed{0}; ///< Flux that materials and media have absorbed.
+    RgbT<double> escaped{0};  ///< Flux that has left the scene.
+    /// Flux of paths that end at the depth limit, or at another object than the target.
+    RgbT<double> cut{0};
+    /// Flux lost minus flux gained by random decisions: by Russian roulette, and by the
+    /// choice of a wavelength. Its mean is 0.
+    RgbT<double> roulette{0};
 
     /// Adds another audit.
     FluxAudit& operator+=(const FluxAudit& other) noexcept {

@@ -15,12 +15,11 @@ namespace ljus {
 /// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
 /// \{
 
-/// Photons in a k-d tree. The general map and the caustics map have this type; they
-/// differ in the photons traced into them.
+/// Photons in a k-d tree. The general map and the caustics map are both of this type.
 template <std::floating_point T>
 struct PhotonMapT {
     KdTree8T<T> tree;                  ///< The positions.
-    detail::PhotonRecordsT<T> records; ///< All but the positions, in the tree's order.
+    detail::PhotonRecordsT<T> records; ///< The other data, in the tree's order.
 
     /// Whether the map has no photons.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -29,24 +28,26 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 namespace detail {
 
-/// Photons in several lists, one after another.
+/// Photons in several lists.
 template <std::floating_point T>
 using PhotonPartsT = std::vector<std::vector<PhotonT<T>>>;
 
-/// Whether a direction has length 1, to 0.5 percent.
+/// Whether a direction has length 1, within 0.5 percent.
 template <std::floating_point T>
 [[nodiscard]] bool is_unit_direction(const Vec3T<T>& direction) noexcept {
     return std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01);
 }
 
-/// Builds a map of photons that each(add) hands to `add` one by one.
+/// Builds a map.
+/// \param count  The number of photons.
+/// \param each   each(add) must call add(photon) for each photon.
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);
     RecordSorterT<T> records;
     KdTree8ItemsT<T> items;
     each([&](const PhotonT<T>& photon) {
-        // A direction of (0, 0, 0) would arrive at neither side of a surface.
+        // A photon with the direction (0, 0, 0) would arrive on no side of a surface.
         require_finite("photon.flux", photon.flux);
         require(is_unit_direction(photon.direction), "photon.direction",
                 photon.direction, "a vector of length 1");
@@ -59,9 +60,9 @@ template <std::floating_point T, typename Each>
     return map;
 }
 
-/// Builds the map of photons that are freed meanwhile.
-/// \cost At most 60 bytes per photon in float at a time, theirs included, where
-///       std::realloc() moves pages: the records are sorted in place.
+/// Builds a map, and frees the lists of photons during the construction.
+/// \cost At most 60 bytes per photon in float at any time, including the given photons,
+///       on systems where std::realloc() moves pages without copying.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> map_of_parts(PhotonPartsT<T> parts, int threads = 0) {
     std::size_t count = 0;
@@ -83,11 +84,11 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Builds a map.
-/// \param photons  In any order.
+/// \param photons  The photons, in any order.
 /// \param threads  As in ParallelSettings.
 /// \return The map, the same for any number of threads.
-/// \throws std::invalid_argument  if a position or a flux is not finite, or a direction
-///         is not of length 1, to 0.5 percent.
+/// \throws std::invalid_argument  if a position or a flux is not finite, or if the
+///         length of a direction differs from 1 by more than 0.5 percent.
 template <std::floating_point T>
 [[nodiscard]] PhotonMapT<T> make_photon_map(const std::vector<PhotonT<T>>& photons,
                                             int threads = 0) {
@@ -97,11 +98,11 @@ template <std::floating_point T>
     return detail::map_of<T>(photons.size(), each, threads);
 }
 
-/// The typical radius of a disc with a given number of photons: the geometric mean over
-/// the photons of a map, between that of a caustic's focus and that of faint light.
+/// The typical radius of a disc that contains a given number of photons: the geometric
+/// mean over discs around photons of a map.
 /// \param map    The photons.
-/// \param count  Number of photons, 1 to 511.
-/// \param most   The largest number of searches, above 0.
+/// \param count  Number of photons in a disc, 1 to 511.
+/// \param most   The largest number of discs, above 0.
 /// \return In scene units; 1 if there are no photons, or if all lie at one point.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] T typical_radius(const PhotonMapT<T>& map, std::size_t count,

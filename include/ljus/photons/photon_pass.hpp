@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/photon_pass.hpp
-/// \brief Settings and results of a photon pass, and its limits.
+/// \brief The settings, the results and the limits of a photon pass.
 
 #include <algorithm>
 #include <cmath>
@@ -18,55 +18,58 @@ namespace ljus {
 /// \addtogroup tracing
 /// \{
 
-/// The two kinds of maps, which differ in scattering and storage of photons.
+/// The kind of a photon map. It determines which photons are scattered and stored.
 enum class MapType : std::uint8_t {
-    general, ///< Any scattering; stored: L D and L ... D ... D, not L S+ D.
-    caustics ///< Mirrors and glass only; stored: L S+ D.
+    general, ///< Any scattering. Stores L D and L ... D ... D, but not L S+ D.
+    caustics ///< Scattering at mirrors and glass only. Stores L S+ D.
 };
 
-/// Criteria for the distribution of caustic photons; see \ref budget.
+/// A criterion for the distribution of caustic photons among objects; see \ref budget.
 enum class CausticBudget : std::uint8_t {
-    as_seen,   ///< By the cones in which lights see the objects; no pilot.
+    as_seen,   ///< In proportion to the solid angle of an object as seen from a light.
     equal,     ///< The same number for each object.
-    flux,      ///< Least squared error of the irradiance, in (W/m^2)^2.
-    area,      ///< Least squared error relative to each caustic's mean.
-    brightness ///< Least squared error relative to all light, as seen by the eye.
+    flux,      ///< Least squared error of the irradiance.
+    area,      ///< Least squared error relative to the mean of each caustic.
+    brightness ///< Least squared error relative to the irradiance of all light.
 };
 
-/// Sources of a photon's random numbers.
+/// The random numbers of photons.
 enum class PhotonSampling : std::uint8_t {
-    random, ///< Pseudo-random; see \ref random.
-    sobol   ///< Low-discrepancy, in the first dimensions; see \ref low_discrepancy.
+    random, ///< Pseudo-random numbers; see \ref random.
+    sobol   ///< Sobol points in the first dimensions; see \ref low_discrepancy.
 };
 
 /// Settings of a photon pass.
 struct PhotonPassSettings {
-    long long photons = 100000;  ///< Paths to emit; N of the estimate.
-    std::uint64_t seed = 1;      ///< Seed of the random streams.
-    std::uint64_t iteration = 0; ///< Index of the repetition.
-    int max_bounces = 1000;      ///< Surfaces per photon; roulette ends paths earlier.
-    bool shadow_photons = true;  ///< Whether the general map stores them.
-    PhotonKinds keep = light_kinds; ///< The other kinds that it stores.
-    bool equal_lights = false;      ///< The same number from every light instead of by
-        ///< power, for shadow photons.
-    PhotonSampling numbers = PhotonSampling::random; ///< Pseudo-random or Sobol.
-    /// Whether nearly_specular() objects count as mirrors: light that they send to a
-    /// surface with a diffuse lobe belongs to the caustics map. A PhotonMapper sets it.
+    long long photons = 100000;     ///< Number of paths to emit.
+    std::uint64_t seed = 1;         ///< Seed of the random streams.
+    std::uint64_t iteration = 0;    ///< Index of the repetition.
+    int max_bounces = 1000;         ///< Largest number of surfaces per photon.
+    bool shadow_photons = true;     ///< Whether the general map stores shadow photons.
+    PhotonKinds keep = light_kinds; ///< The other kinds of photons to store.
+    /// Whether every light emits the same number of photons, instead of a number in
+    /// proportion to its power. Useful for shadow photons.
+    bool equal_lights = false;
+    PhotonSampling numbers = PhotonSampling::random; ///< The random numbers.
+    /// Whether objects with a nearly_specular() material count as mirrors. The light
+    /// that such an object sends to a surface with a diffuse lobe then belongs to the
+    /// caustics map. A PhotonMapper sets this member.
     bool gloss_as_mirrors = false;
-    /// Fractions of the caustic photons, one per object of specular_objects(), with the
-    /// sum 1; empty: by the cones that lights see. See \ref budget.
+    /// The fraction of the caustic photons for each object of specular_objects(); the
+    /// sum is 1. If empty, as for CausticBudget::as_seen. See \ref budget.
     std::vector<double> shares = {};
-    /// Probabilities with which photons choose their lights, one per light, with the
-    /// sum 1; empty: by power. See pilot_lights().
+    /// The probability with which a photon chooses each light; the sum is 1. If empty,
+    /// in proportion to power. See pilot_lights().
     std::vector<double> light_shares = {};
-    double max_memory = 4e9;       ///< Bytes for the photons of the pass and their map.
-    long long give_up = 1LL << 20; ///< Ends after as many paths if none was stored.
-    int threads = 0;               ///< 0: all processors.
+    double max_memory = 4e9; ///< Limit in bytes for the photons and their map.
+    /// A pass that has stored no photon after this number of paths ends.
+    long long give_up = 1LL << 20;
+    int threads = 0;                 ///< Number of threads; 0: all processors.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
-/// Refuses invalid settings.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings of a photon pass.
+/// \throws std::invalid_argument  if a number is out of range.
 inline void check(const PhotonPassSettings& pass) {
     require_at_least("the number of photons", pass.photons, 0);
     require_at_least("the largest number of bounces", pass.max_bounces, 1);
@@ -77,11 +80,11 @@ inline void check(const PhotonPassSettings& pass) {
 /// The result of a photon pass.
 template <std::floating_point T>
 struct TracedPhotonsT {
-    std::vector<PhotonT<T>> photons{}; ///< In the order of emission.
-    FluxAudit audit{};                 ///< Where the flux went.
-    long long emitted = 0; ///< Paths emitted, including those that stored nothing.
+    std::vector<PhotonT<T>> photons{}; ///< The photons in the order of emission.
+    FluxAudit audit{};                 ///< What became of the emitted flux.
+    long long emitted = 0; ///< Number of paths, including those that stored nothing.
     bool complete = true;  ///< False if the progress callback stopped the pass.
-    std::string remark{};  ///< If the pass gave up, one sentence why.
+    std::string remark{};  ///< The reason in one sentence if the pass gave up.
 };
 
 namespace detail {
@@ -89,20 +92,22 @@ namespace detail {
 /// The photons of a block of paths, in the order of emission.
 template <std::floating_point T>
 struct PhotonBlockT {
-    std::vector<PhotonT<T>> photons{}; ///< Stored photons.
-    FluxAudit audit{};                 ///< Where their flux went.
-    long long unsent = 0; ///< Paths not emitted: no target before the light.
+    std::vector<PhotonT<T>> photons{}; ///< The stored photons.
+    FluxAudit audit{};                 ///< What became of the emitted flux.
+    long long unsent = 0;              ///< Number of paths that no light could emit.
 };
 
 /// Number of paths per block.
 inline constexpr long long photon_block = 512;
 
-/// Number of paths before the memory of the whole pass is predicted.
+/// The number of paths after which the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// Predicts the memory of a pass in bytes, and of the map that is made of its parts:
-/// its photons with four numbers each for the tree, and the blocks of a round.
-/// \param mean     Stored photons per path so far.
+/// Predicts the memory of a pass and of the map made of its photons. It consists of the
+/// photons, of four numbers per photon for the tree, and of the blocks of a round.
+/// \param photons  The number of paths.
+/// \param mean     The number of stored photons per path so far.
+/// \return In bytes.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
@@ -110,9 +115,10 @@ template <std::floating_point T>
            blocks / 16 * sizeof(PhotonBlockT<T>);
 }
 
-/// Refuses a pass that would exceed its memory.
-/// \param mean  Stored photons per path so far.
-/// \throws std::invalid_argument  with both numbers, and how many photons would fit.
+/// Refuses a pass that would exceed its limit of memory.
+/// \param mean  The number of stored photons per path so far.
+/// \throws std::invalid_argument  with the predicted memory, the limit, and the number
+///         of photons that would fit.
 template <std::floating_point T>
 [[gnu::cold]] void require_memory(MapType map, const PhotonPassSettings& pass,
                                   double mean) {
@@ -131,7 +137,9 @@ template <std::floating_point T>
 }
 
 /// Explains in one sentence why a pass that has stored nothing gives up.
-/// \param unsent  Paths that no light could emit.
+/// \param paths   The number of paths.
+/// \param unsent  The number of paths that no light could emit.
+/// \param audit   What became of the emitted flux.
 [[nodiscard, gnu::cold]] inline std::string why_nothing(const PhotonPassSettings& pass,
                                                         MapType map, long long paths,
                                                         long long unsent,
@@ -157,8 +165,8 @@ template <std::floating_point T>
     return text;
 }
 
-/// A sentence about a caustics pass with several lights most of whose photons are lost.
-/// \return Empty if at least a tenth was stored.
+/// A remark about a caustics pass with several lights that has stored only few photons.
+/// \return One sentence; empty if at least a tenth of the photons is stored.
 [[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
                                                        long long emitted) {
     const double share = double(stored) / double(std::max(emitted, 1LL));

@@ -22,20 +22,21 @@ namespace ljus {
 
 namespace detail {
 
-/// The ray of a photon that leaves a light, from a surface or from a point.
+/// The ray of a photon that leaves a light from a point of its surface.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const SurfacePointT<T>& point,
                             const Vec3T<T>& direction) noexcept {
     return spawn_ray(point, direction);
 }
-/// \copydoc leave
+/// The ray of a photon that leaves a light without extent.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const Vec3T<T>& point, const Vec3T<T>& direction) noexcept {
     return {.origin = point, .direction = direction};
 }
 
-/// The flux that all photons of a light would have together, if each had as much as one
-/// from this point has: flux_from() of the point, or else the light's flux.
+/// The flux of a photon that leaves from a point of a light, times the number of
+/// photons of the light: flux_from() if the light provides this function, otherwise
+/// power().
 template <typename L, typename Point>
 [[nodiscard]] RgbT<typename L::Scalar> flux_leaving(const L& light,
                                                     const Point& point) {
@@ -51,13 +52,13 @@ template <typename L, typename Point>
 template <std::floating_point T>
 struct LeavingPhotonT {
     RayT<T> ray{};      ///< Origin and direction; its time is not set.
-    RgbT<T> flux{T(0)}; ///< W, of all photons of the light together.
+    RgbT<T> flux{T(0)}; ///< Flux times the number of photons of the light, W.
 };
 
-/// Emits a photon of a light, with the density of the light's emission: uniform over a
-/// lamp's area with cos / pi in direction; uniform over the sphere from a point; by
-/// intensity from a spot; parallel from a distant light, uniform over the disc that the
-/// sphere around the scene casts as its shadow.
+/// Emits a photon of a light, with the density of the light's own emission. A near
+/// light uses its emission_point() and sample_emission(). A distant light uses its
+/// sample_arrival(), and starts the photon from a uniform point of a disc: the cross
+/// section of the sphere around the scene, moved out of the scene.
 /// \param light        The light, as its scene stores it.
 /// \param u_point      Point of the unit square; chooses the origin.
 /// \param u_direction  Point of the unit square; chooses the direction.
@@ -80,19 +81,19 @@ template <Light L, std::floating_point T>
 }
 // [emit_photon]
 
-/// A photon that leaves the lights.
+/// A photon that leaves a light chosen at random.
 template <std::floating_point T>
 struct EmittedPhotonT {
-    RayT<T> ray{};      ///< Origin, direction and time.
-    RgbT<T> flux{T(0)}; ///< W, of all paths together: to be divided by their number.
-    std::uint16_t light = 0; ///< Index of its light.
+    RayT<T> ray{};           ///< Origin, direction and time.
+    RgbT<T> flux{T(0)};      ///< W, not yet divided by the number of paths.
+    std::uint16_t light = 0; ///< Index of the light.
 };
 
 namespace detail {
 
-/// How photons leave a light that is not aimed.
+/// Emits photons by emit_photon(), for a pass that does not aim at the scene.
 struct LeaveAsEmitted {
-    /// A photon by emit_photon(), whichever number the light has.
+    /// Emits a photon of a light. The number of the light is ignored.
     template <Light L, std::floating_point T>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t, const L& light, const Vec2T<T>& u_point,
@@ -103,20 +104,20 @@ struct LeaveAsEmitted {
 
 } // namespace detail
 
-/// Emits a photon of a light chosen by power; see emit_photon().
-///
-/// Each photon of a white light carries the same flux, the scene's total flux over the
-/// number of photons; that of a coloured light differs only between its channels.
+/// Emits a photon of a light chosen at random; see emit_photon(). If the light is
+/// chosen in proportion to its power, each photon carries the same flux, summed over
+/// the channels.
 /// \param world   The closed scene.
-/// \param choice  The distribution of its lights, at least one: World::light_choice()
-///                or another.
-/// \param stream  Five numbers are drawn from a stream of any kind.
-/// \param leave   How a photon leaves its light: as it emits, or a SceneAimT.
-/// \return The photon; its flux is that of all paths together.
+/// \param choice  The distribution of the lights, at least one. World::light_choice()
+///                chooses them in proportion to power.
+/// \param stream  Five numbers are drawn, and one more if a shape moves.
+/// \param leave   Emits the photon of the chosen light: by default emit_photon(), or a
+///                SceneAimT.
+/// \return The photon. Its flux is not yet divided by the number of paths.
 /// \report{Section 3.2.2}
-/// \erratum{The program behind the report gives every light the same number of photons
-///          and the same flux whatever its area, and multiplies the flux by the cosine
-///          that the direction's density already holds.}
+/// \erratum{The report's program gives every light the same number of photons and the
+/// same flux, whatever its area. It multiplies the flux by a cosine that the density of
+/// the direction already contains.}
 // [emit]
 template <AnyWorld W, StreamLike Stream, typename Leave = detail::LeaveAsEmitted>
 [[nodiscard]] EmittedPhotonT<typename W::Scalar>
@@ -143,16 +144,19 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
 /// \{
 
-/// Compensated Russian roulette: a photon survives with its reflectance as probability,
-/// and a survivor takes over the flux of the others \cite arvo1990.
-/// \param flux    Flux before the surface; not black.
-/// \param weight  f |cos| / pdf of the new direction.
+/// Russian roulette for a photon at a surface \cite arvo1990. The probability of
+/// survival is the brightest channel after the reflection over the brightest channel
+/// before. The flux of a survivor is divided by this probability, so that the mean flux
+/// stays the same.
+/// \param flux    Flux before the reflection, in W; not black.
+/// \param weight  f |cos|/pdf of the new direction.
 /// \param u       In [0, 1).
-/// \param audit   Receives the absorbed flux, and what roulette moved.
-/// \return The new flux; nothing if the photon is absorbed.
+/// \param audit   Receives the absorbed flux, and the flux lost and gained by roulette.
+/// \return The new flux; nothing if the photon does not survive.
 /// \report{Section 3.2.2}
-/// \erratum{The report does not say that a survivor must be divided by its probability;
-///          its program did not, and lost the absorbed part twice.}
+/// \erratum{The report does not say that the flux of a survivor must be divided by the
+/// probability. The report's program does not divide it, and so counts the absorption
+/// twice.}
 // [roulette]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,
@@ -174,14 +178,15 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Stores shadow photons on the diffuse surfaces behind the first hit of a photon.
-///
-/// A shadow photon belongs to the side of a surface on which it arrives, wherever the
-/// normal points; photon_side() tells which it is. The direct and shadow photons of a
-/// side together are its unoccluded light.
-/// \param stream  A copy, so that the photon's own numbers do not change. One number is
-///                drawn per thin surface.
-/// \cost A closest hit for each surface behind the first, and one more; at most 1000.
+/// Stores shadow photons on the diffuse surfaces behind the first hit of a photon. On
+/// each side of a surface, direct and shadow photons together represent the unoccluded
+/// light.
+/// \param photon  The photon as it leaves the light.
+/// \param first   The first hit of the photon.
+/// \param stream  A copy of the photon's stream. One number is drawn per thin surface.
+/// \param out     Receives the shadow photons.
+/// \cost One call of closest_hit() for each surface behind the first, and one more; at
+///       most 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
 // [trace_shadow]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -207,18 +212,20 @@ void trace_shadow(const W& world, const EmittedPhotonT<T>& photon,
 }
 // [trace_shadow]
 
-/// The kind of photon that a path would store at its current vertex; never a shadow
-/// photon.
+/// The kind of photon that a path would store at its current vertex: direct, caustic or
+/// indirect.
 template <std::floating_point T>
 [[nodiscard]] PhotonKind kind_of(const PathStateT<T>& path) noexcept {
     if (path.met_diffuse) return PhotonKind::indirect;
     return path.met_specular ? PhotonKind::caustic : PhotonKind::direct;
 }
 
-/// The correction of a photon's flux where it lands: its flux density follows the
-/// geometric normal, but the material reflects by the cosine of the shading normal.
-/// \param direction  The photon's direction of travel.
-/// \return \f$ |\omega \cdot N_s| / |\omega \cdot N_g| \f$; 0 if the normals disagree.
+/// The factor of a photon's flux where shading normal and geometric normal differ. The
+/// density of photons on a surface contains the cosine to the geometric normal, but the
+/// material needs the cosine to the shading normal.
+/// \param direction  The photon's unit direction of travel.
+/// \return |cosine| to the shading normal over |cosine| to the geometric normal. 0 if
+///         the two normals disagree about the side.
 template <std::floating_point T>
 [[nodiscard]] T landing_factor(const VertexT<T>& vertex,
                                const Vec3T<T>& direction) noexcept {
@@ -227,8 +234,11 @@ template <std::floating_point T>
     return std::abs(vertex.wo.z / glm::dot(direction, vertex.point.normal));
 }
 
-/// Stores a photon, if the surface is diffuse and the map stores its kind.
-/// \param path      The path of the photon; its throughput is the flux.
+/// Stores a photon if the surface has a non-specular lobe and the map stores this kind
+/// of photon.
+/// \param path  The path of the photon; its throughput is the flux.
+/// \param keep  The kinds that are stored.
+/// \param out   Receives the photon.
 template <AnyWorld W, std::floating_point T, Material M>
 void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
@@ -244,12 +254,13 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
                    small_normal(vertex.point.normal)});
 }
 
-/// Scatters a photon at a vertex, unless roulette ends it.
-/// \param path      Receives its new ray, flux and medium.
-/// \param map       The kind of map: for caustics only specular lobes are sampled.
-/// \param stream    Four numbers are drawn.
-/// \param audit     Receives the absorbed flux, and what roulette moved.
-/// \param gloss     Whether the surface's glossy lobe counts as a mirror.
+/// Scatters a photon at a vertex, and plays Russian roulette.
+/// \param path    The path; receives the new ray, flux and medium.
+/// \param map     The kind of map. For caustics only specular lobes are sampled.
+/// \param stream  Four numbers are drawn.
+/// \param audit   Receives the absorbed flux, and the flux lost and gained by
+///                roulette.
+/// \param gloss   Whether the glossy lobe of the surface counts as a mirror.
 /// \return Whether the path continues.
 template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool scatter_photon(PathStateT<T>& path, const VertexT<T>& vertex,
@@ -261,7 +272,7 @@ template <std::floating_point T, Material M, StreamLike Stream>
         gloss && !vertex.turned ? Lobes::specular | Lobes::glossy : Lobes::specular;
     const Lobes which = only_specular ? mirrors : Lobes::all;
     const bool met_diffuse = path.met_diffuse;
-    path.throughput = RgbT<T>{T(1)}; // then the throughput becomes the weight
+    path.throughput = RgbT<T>{T(1)}; // continue_path() turns it into the weight
     if (!continue_path(path, vertex, material, Transport::flux, which, stream)) {
         audit.absorbed += RgbT<double>(flux);
         return false;
@@ -277,17 +288,22 @@ template <std::floating_point T, Material M, StreamLike Stream>
     return true;
 }
 
-/// Takes a photon through the fog before its next surface.
+/// Takes a photon through the fog before its next surface. fly() decides whether and
+/// where fog scatters the photon.
 ///
-/// Fog scatters photons of the general map, by fly(), and roulette absorbs some.
-/// Photons of the caustics map are dimmed; each also makes a flight that only stores a
-/// photon. Of what is scattered, the caustics map has L S+ D and the general map
-/// L ... D ... D; shadow rays have L D.
-/// \param path     The path after next_vertex(); receives its flux, and its new ray if
-///                 fog scatters it.
-/// \param before   Its flux before next_vertex(); receives that at the surface.
+/// A photon of the general map is scattered at this point, unless Russian roulette ends
+/// it. A photon of the caustics map is not scattered; its flux is attenuated by the
+/// fog. At this point a photon of the kind PhotonKind::fog is stored if the path so far
+/// is L S+ for the caustics map, or L ... D ... for the general map. For light that
+/// comes straight from a light, shadow rays are used instead.
+/// \param path     The path after next_vertex(). Receives the flux and, if fog scatters
+///                 the photon, the new ray.
+/// \param before   The flux before next_vertex(); receives the flux at the surface.
 /// \param surface  Distance of the next surface.
-/// \param stream   Two numbers are drawn and one for each medium; two more to scatter.
+/// \param keep     The kinds that are stored.
+/// \param stream   One number is drawn, and one for each medium; three more if the
+///                 photon is scattered, of which one is for roulette.
+/// \param block    Receives the stored photon, and the absorbed flux.
 // [photon in fog]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] InFog cross_fog(const W& world, MapType map, PathStateT<T>& path,
@@ -297,7 +313,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     FogSegmentT<T> segment{path.ray, RgbT<T>(before)};
     segment.ray.t_max = surface;
     PathStateT<T> flight = path;
-    flight.throughput = RgbT<T>{T(1)}; // becomes the weight
+    flight.throughput = RgbT<T>{T(1)}; // fly() turns it into the weight
     const auto vertex = fly(world, segment, flight, stream);
     const bool caustics = map == MapType::caustics;
     const PhotonKind owned = caustics ? PhotonKind::caustic : PhotonKind::indirect;
@@ -328,19 +344,23 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 /// A photon as a pass emits it.
 template <std::floating_point T>
 struct SentPhotonT {
-    EmittedPhotonT<T> photon{};       ///< As it leaves its light.
-    std::optional<ObjectId> target{}; ///< The object at which it was aimed, if any; any
-                                      ///< other first hit ends it.
+    EmittedPhotonT<T> photon{}; ///< The photon as it leaves its light.
+    /// The object at which the photon is aimed, if any. A photon that hits another
+    /// object first is dropped.
+    std::optional<ObjectId> target{};
 };
 
-/// Traces a photon and stores it at each diffuse surface.
+/// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
-/// A photon that has met only mirrors and glass is stored in the caustics map alone, so
-/// that no light counts twice. With PhotonPassSettings::gloss_as_mirrors that holds for
-/// gloss as well, and there the photon is stored only where there is a diffuse lobe:
-/// between two glossy surfaces paths carry the light.
-/// \param sent    The photon; its flux is divided by the number of paths.
-/// \param stream  Four numbers are drawn per bounce.
+/// A photon that has met only mirrors and glass, L S+ D, is stored in the caustics map
+/// and not in the general map. With PhotonPassSettings::gloss_as_mirrors, a glossy
+/// surface counts as a mirror. After such a surface, the photon is stored only at
+/// surfaces with a diffuse lobe.
+/// \param sent    The photon. Its flux has been divided by the number of paths.
+/// \param pass    The settings of the pass.
+/// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and
+///                where a wavelength is chosen.
+/// \param block   Receives the photons and the audit.
 // [trace]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
@@ -356,7 +376,7 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
         [[maybe_unused]] const T wavelength = path.wavelength;
         const auto vertex = next_vertex(world, path, stream);
         if constexpr (lists_dispersive<W>)
-            if (path.wavelength != wavelength) { // which carries on the flux of all
+            if (path.wavelength != wavelength) { // it takes the flux of all wavelengths
                 const RgbT<double> all = before;
                 before *= RgbT<double>(wavelength_color(path.wavelength));
                 audit.roulette += all - before;

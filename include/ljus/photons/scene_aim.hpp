@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/scene_aim.hpp
-/// \brief Photons of a far lamp, aimed at the scene.
+/// \brief Aims photons at the scene, for lamps that are far from the scene.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace ljus {
 
 namespace detail {
 
-/// A sphere around at least one other.
-/// \return Larger by 0.1 %, against rounding.
+/// A sphere around one or more spheres.
+/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] SphereT<T>
 sphere_around(const std::vector<SphereT<T>>& others) {
@@ -37,10 +37,11 @@ sphere_around(const std::vector<SphereT<T>>& others) {
 
 } // namespace detail
 
-/// The sphere around all that photons are sent to: the objects that are no lamps, and
-/// the lamps that touch the sphere around those. A lamp far away would make the sphere
-/// as large as its distance.
-/// \return Larger by 0.1 %, against rounding; nothing if all objects are lamps.
+/// The sphere to which photons are sent. It contains all objects that are not lamps,
+/// and all lamps that touch the sphere around these objects. Lamps that are farther
+/// away are left out.
+/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
+///         Nothing if all objects are lamps.
 /// \cost O(n) for n objects, and 16 bytes for each in float.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] std::optional<SphereT<T>> lit_sphere(const W& world) {
@@ -60,14 +61,18 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
 
 namespace detail {
 
-/// The part of an aimed light's photons that is sent into the cone. The others leave as
-/// from any light, so that they find what lies outside the cone; their flux is at most
-/// eight times that of a photon that is not aimed.
+/// The fraction of an aimed light's photons that is sent into the cone. The other
+/// photons leave as from a light that is not aimed, because objects may lie outside the
+/// cone. Their flux is at most eight times that of a photon that is not aimed.
 inline constexpr double part_in_cone = 7.0 / 8;
 
-/// A photon of a near light, most probably sent into the cone of a sphere.
-/// \param sphere  As of lit_sphere().
-/// \return The photon; its flux is 0 in directions in which the light does not emit.
+/// Emits a photon of a near light. With the probability part_in_cone it is sent into
+/// the cone around a sphere.
+/// \param sphere   From lit_sphere().
+/// \param u_point  Point of the unit square; chooses the origin.
+/// \param u        Point of the unit square; chooses the direction.
+/// \param time     Time of the photon, in [0, 1].
+/// \return The photon. Its flux is 0 if the light does not emit in the direction.
 // [emit_into]
 template <NearLight L, std::floating_point T>
 [[nodiscard]] LeavingPhotonT<T> emit_into(const L& light, const SphereT<T>& sphere,
@@ -84,7 +89,7 @@ template <NearLight L, std::floating_point T>
     } else {
         u.x = (u.x - part) / (T(1) - part);
         direction = sample_emission(light, point, u);
-        const Vec3T<T> apart = direction - cone.axis; // accurate for narrow cones
+        const Vec3T<T> apart = direction - cone.axis; // |apart|^2 is 2 (1 - cos)
         inside = glm::dot(apart, apart) <= T(2) * cone.one_minus_cos;
     }
     const T emitted = pdf_emission(light, point, direction);
@@ -95,16 +100,16 @@ template <NearLight L, std::floating_point T>
 }
 // [emit_into]
 
-/// The part of a light's flux that goes into the cone of a sphere, if it pays to aim
-/// there; nothing if not.
+/// The fraction of a light's flux that goes into the cone around a sphere. Nothing if
+/// it does not pay to aim photons into this cone.
 ///
-/// Let w be the density of emission over that of the cone, for directions drawn in the
-/// cone. Such a photon has a flux in proportion to w, and is worth
-/// \f$ E[w]^2 / E[w^2] \f$ photons of equal flux. Without aiming, the fraction
-/// \f$ E[w] \f$ of the photons goes into the cone. Therefore aiming pays if
-/// \f$ E[w] > E[w^2] \f$. It does not for a spot that shines on a part of the sphere,
-/// nor for a lamp that faces it from nearby.
-/// \param sphere  As of lit_sphere().
+/// For a direction that is uniform in the cone, let w be the density of emission over
+/// the density of this uniform direction. An aimed photon has a flux in proportion to
+/// w. It is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, where E is the mean.
+/// Without aiming, the fraction \f$ E[w] \f$ of the photons goes into the cone.
+/// Therefore aiming pays if \f$ E[w] > E[w^2] \f$.
+/// \param sphere  From lit_sphere().
+/// \cost 64 samples.
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard, gnu::cold]] std::optional<double>
 part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
@@ -115,7 +120,7 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
         const T time = path_time(world, stream);
         const auto point = emission_point(light, next_2d<T>(stream), time);
         const ConeT<T> cone = cone_towards(sphere, position_of(point));
-        if (cone.one_minus_cos == T(2)) return std::nullopt; // within the sphere
+        if (cone.one_minus_cos == T(2)) return std::nullopt; // point in the sphere
         const Vec3T<T> direction =
             to_world(frame_around(cone.axis),
                      sample_uniform_cone(next_2d<T>(stream), cone.one_minus_cos));
@@ -130,16 +135,17 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 
 } // namespace detail
 
-/// How the photons of a general map leave the lights of a scene: those of far lamps are
-/// aimed. `emit(world, aim.choice, stream, aim)` emits one.
+/// How the photons of a general map leave the lights of a scene. The photons of lamps
+/// that are far from the scene are aimed. `emit(world, aim.choice, stream, aim)` emits
+/// a photon.
 template <std::floating_point T>
 struct SceneAimT {
-    LightChoice choice{};                 ///< By the flux that goes to the scene.
-    SphereT<T> sphere{};                  ///< As of lit_sphere().
-    std::vector<std::uint8_t> is_aimed{}; ///< 1 for each aimed light, 0 for others;
-                                          ///< empty if none is aimed.
+    LightChoice choice{}; ///< The distribution of the lights.
+    SphereT<T> sphere{};  ///< From lit_sphere().
+    /// 1 for each light that is aimed, 0 for the others; empty if no light is aimed.
+    std::vector<std::uint8_t> is_aimed{};
 
-    /// A photon that leaves the light of this number.
+    /// Emits a photon of the light with this number.
     template <Light L>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t number, const L& light, const Vec2T<T>& u_point,
@@ -151,14 +157,16 @@ struct SceneAimT {
     }
 };
 
-/// Finds the lights from which the scene fills so small a part of the directions that
-/// it pays to aim photons at it. Of a lamp far outside nearly all photons would fly
-/// past the scene otherwise. Lights within the scene and suns are not aimed. Jensen's
-/// projection maps \cite jensen2001 do the same by cells of directions.
-/// If the lights are chosen by power, an aimed one is chosen by the flux that goes to
-/// the scene.
-/// \return For emit().
-/// \cost That of lit_sphere(), and 64 samples for each light outside the scene.
+/// Finds the lights that are so far from the scene that it pays to aim their photons at
+/// the scene. Most photons of such a light would otherwise miss the scene. Jensen's
+/// projection maps \cite jensen2001 have the same purpose. Lights inside the scene and
+/// distant lights such as suns are not aimed.
+/// \param world     The closed scene.
+/// \param choice    The distribution of the lights.
+/// \param by_power  True if `choice` is in proportion to power. An aimed light is then
+///                  chosen in proportion to its flux into the cone around the scene.
+/// \return The arguments of emit().
+/// \cost lit_sphere(), and at most 64 samples per light.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] SceneAimT<T>
 aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {

@@ -17,25 +17,29 @@ namespace ljus {
 /// Chapter: \ref ch_shadow_photons.
 /// \{
 
-/// Rules for photons that make a shadow ray unnecessary.
+/// A rule by which the photons around a point make a shadow ray unnecessary. Direct
+/// photons mean that a light is visible, shadow photons that it is occluded.
 enum class SkipRule : std::uint8_t {
-    none,   ///< Every shadow ray is cast.
-    report, ///< The report's: many of one kind, few of the other; lights combined.
-    any,    ///< One or more of one kind, none of the other \cite jensen1995.
-    enough  ///< None of the other kind among statistically enough.
+    none, ///< Every shadow ray is cast.
+    /// The rule of the report: many photons of one kind, few of the other. The photons
+    /// of all lights are counted together.
+    report,
+    any,   ///< At least one photon of one kind, none of the other \cite jensen1995.
+    enough ///< At least photons_needed() of one kind, none of the other.
 };
 
-/// Settings for skipping rays. All but the first three are for SkipRule::enough.
+/// Settings for skipping rays. `tolerance` and `risk` are used by SkipRule::enough.
 struct SkipSettings {
     SkipRule rule = SkipRule::none; ///< Rule for shadow rays.
-    bool indirect_rays = false;     ///< Skip those without an indirect photon near.
-    float radius = 0;        ///< In scene units; 0: large enough for enough photons.
-    float tolerance = 0.05f; ///< Hidden fraction of a light that may be ignored.
+    /// Whether indirect rays are skipped where no indirect photon is near.
+    bool indirect_rays = false;
+    float radius = 0; ///< Search radius in scene units; 0: chosen from the photons.
+    float tolerance = 0.05f; ///< Occluded fraction of a light that may be ignored.
     float risk = 0.05f;      ///< Probability of ignoring a larger fraction.
 };
 
-/// Refuses invalid settings.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings for skipping rays.
+/// \throws std::invalid_argument  if a number is out of range.
 inline void check(const SkipSettings& skip) {
     require(skip.radius >= 0 && std::isfinite(skip.radius), "skip.radius",
             double(skip.radius), "at least 0 (0: chosen from the photons)");
@@ -47,9 +51,10 @@ inline void check(const SkipSettings& skip) {
 
 /// The number of photons around a point that a rule needs.
 ///
-/// If a fraction above tau of a light is hidden, each of its photons is a shadow photon
-/// with a probability above tau, and n of them are all direct with one below
-/// \f$ (1-\tau)^n \f$. This is at most the risk alpha for
+/// For SkipRule::enough, let tau be the tolerance and alpha the risk. If a fraction
+/// above tau of a light is occluded, a photon of this light is a shadow photon with a
+/// probability above tau. The probability that n photons are all direct is then below
+/// \f$ (1-\tau)^n \f$, which is at most alpha for
 /// \f$ n \ge \ln\alpha / \ln(1-\tau) \f$.
 /// \return At least 1.
 [[nodiscard]] inline std::uint32_t photons_needed(const SkipSettings& skip) noexcept {
@@ -68,12 +73,13 @@ struct PhotonCounts {
     std::uint32_t shadow = 0; ///< Photons that were occluded.
 };
 
-/// The report's program ignores one photon in as many.
+/// The rule of the report ignores the photons of one kind if photons of the other kind
+/// are more frequent by more than this factor.
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// The verdict of the photons around a point.
-/// \param rule    Any but SkipRule::none.
-/// \param needed  photons_needed() by this rule.
+/// \param rule    The rule; not SkipRule::none.
+/// \param needed  The result of photons_needed().
 // [judge]
 [[nodiscard]] constexpr Verdict judge(const PhotonCounts& found, SkipRule rule,
                                       std::uint32_t needed) noexcept {
@@ -86,12 +92,13 @@ inline constexpr std::uint64_t report_ratio = 1200;
 }
 // [judge]
 
-/// The facing of a surface: the axis nearest to its normal, and the sign along it. It
-/// is computed from normals rounded to 1/127, as photons store them, so that all points
-/// and photons of a plane have the same facing.
-/// \param x,y,z  Magnitudes of the normal's coordinates in these steps.
-/// \param side   +1 for the side of the normal, -1 for the other.
-/// \return 0 to 5: x, y, z, then the same for negative directions.
+/// The facing of a side of a surface: the coordinate axis that is nearest to the normal
+/// of this side, with its sign. Normals are rounded to steps of 1/127, as photons store
+/// them. All points and photons of a plane therefore have the same facing.
+/// \param x,y,z  Absolute values of the normal's components, in steps of 1/127.
+/// \param n      The normal; the signs of its components are used.
+/// \param side   +1 for the side of the normal, -1 for the other side.
+/// \return 0, 1 or 2 for +x, +y or +z; 3, 4 or 5 for -x, -y or -z.
 template <typename N>
 [[nodiscard]] constexpr int facing(int x, int y, int z, const N& n, int side) noexcept {
     const int larger = x >= y ? x : y;
@@ -99,11 +106,11 @@ template <typename N>
     return (n[axis] < 0) == (side < 0) ? axis : axis + 3;
 }
 
-/// The facing of a side, from a photon's normal.
+/// The facing of a side of a surface, from a normal in three bytes.
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
     return facing(std::abs(n.x), std::abs(n.y), std::abs(n.z), n, side);
 }
-/// The facing of a side, from a unit normal; faster than small_normal().
+/// The facing of a side of a surface, from a unit normal.
 template <std::floating_point T>
 [[nodiscard]] int facing(const Vec3T<T>& n, int side) noexcept {
     const auto size = [](T c) { return int(T(127) * std::abs(c) + T(0.5)); };
@@ -112,14 +119,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The plain counterpart of VerdictGridT: searches the map for each verdict, which
-/// costs more than the ray that it may save.
-/// \param map     Contains direct and shadow photons.
+/// The plain counterpart of VerdictGridT. It searches the map for each verdict, which
+/// takes longer than the shadow ray that the verdict may save.
+/// \param map     The map, with direct and shadow photons.
 /// \param point   Point of a surface.
-/// \param side    +1 for the side of its normal, -1 for the other.
+/// \param side    +1 for the side of its normal, -1 for the other side.
 /// \param light   Index of the light.
 /// \param radius  Search radius, in scene units.
-/// \param skip    The rule.
+/// \param skip    The settings; `radius` in them is not used.
 template <std::floating_point T>
 [[nodiscard]] Verdict
 verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,

@@ -44,7 +44,7 @@ void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
             sent = {aimed->photon, aimed->target};
         } else {
             sent.photon = emit(world, aim.choice, stream, aim);
-            if (is_black(sent.photon.flux)) { // behind a lamp, or outside of its cone
+            if (is_black(sent.photon.flux)) { // the light does not emit there
                 ++block.unsent;
                 continue;
             }
@@ -58,12 +58,12 @@ void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
 template <std::floating_point T>
 struct TracedPartsT {
     std::vector<std::vector<PhotonT<T>>> parts{}; ///< In the order of emission.
-    std::size_t stored = 0;                       ///< Their number.
-    TracedPhotonsT<T> pass{};                     ///< All else; it has no photons.
+    std::size_t stored = 0;                       ///< The number of all photons.
+    TracedPhotonsT<T> pass{}; ///< The other results; its own list of photons is empty.
 };
 
-/// Adds the photons of blocks, in their order, to those of a pass. The blocks keep
-/// their memory.
+/// Adds the photons of blocks, in their order, to those of a pass. The blocks are then
+/// empty, but keep their memory for the next photons.
 /// \return The number of paths that no light could emit.
 template <std::floating_point T>
 long long take_photons(std::span<PhotonBlockT<T>> blocks, TracedPartsT<T>& result) {
@@ -86,7 +86,7 @@ long long take_photons(std::span<PhotonBlockT<T>> blocks, TracedPartsT<T>& resul
     return unsent;
 }
 
-/// Joins the photons of a pass, and frees its parts.
+/// Joins the photons of a pass in one list, and frees the parts.
 template <std::floating_point T>
 [[nodiscard]] TracedPhotonsT<T> join_parts(TracedPartsT<T> traced) {
     TracedPhotonsT<T> result = std::move(traced.pass);
@@ -99,7 +99,9 @@ template <std::floating_point T>
 }
 
 /// Checks the settings and the lights of a pass.
-/// \return The distribution for the pass.
+/// \param choice  The distribution of the lights by power.
+/// \return The distribution of the lights for the pass.
+/// \throws std::invalid_argument  as trace_photons().
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice
 start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
@@ -120,8 +122,9 @@ start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
     return choice;
 }
 
-/// How the photons of a pass leave their lights: aimed at the scene where that pays.
-/// Photons of the caustics map are aimed at single objects instead.
+/// How the photons of a pass leave their lights. For the general map this is the result
+/// of aim_at_scene(). For the caustics map only `choice` is set, because its photons
+/// are aimed at single objects.
 template <AnyWorld W>
 [[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
                                                          const PhotonPassSettings& pass,
@@ -131,7 +134,8 @@ template <AnyWorld W>
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
 
-/// The objects at which the photons of a pass are aimed: none for the general map.
+/// The objects at which the photons of a caustics map are aimed. Empty for a general
+/// map.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
                                                const PhotonPassSettings& pass) {
@@ -141,9 +145,9 @@ template <AnyWorld W>
     return targets;
 }
 
-/// Traces the blocks of a pass by several threads; compiled once for all types of
-/// scenes.
-/// \param trace  As trace_block().
+/// Traces the blocks of a pass by several threads. This function is compiled once for
+/// all types of scenes.
+/// \param trace  Traces one block of paths, by trace_block().
 /// \return The photons in the order of emission.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] TracedPartsT<T>
@@ -152,7 +156,7 @@ run_pass(MapType map, const PhotonPassSettings& pass,
     TracedPartsT<T> traced;
     TracedPhotonsT<T>& result = traced.pass;
     result.emitted = pass.photons;
-    std::vector<PhotonBlockT<T>> blocks; // of a round; the next one uses them again
+    std::vector<PhotonBlockT<T>> blocks; // of one round; the next round reuses them
     const long long count = block_count(pass.photons, photon_block);
     const long long threads = pass.threads == 0 ? max_threads() : pass.threads;
     long long done = 0, unsent = 0; // finished blocks; paths that were not emitted
@@ -160,8 +164,8 @@ run_pass(MapType map, const PhotonPassSettings& pass,
         const long long stop = std::min(block_count(paths, photon_block), count);
         if (stop <= done) continue;
         while (done < stop && result.complete) {
-            // Few rounds, so that no thread waits often, of a small part of the
-            // photons, which are there twice for a moment.
+            // With few rounds, threads rarely wait for each other. With small rounds,
+            // few photons are in memory twice while they are copied.
             const long long last =
                 std::min(done + std::max(16 * threads, done / 16), stop);
             blocks.resize(static_cast<std::size_t>(last - done));
@@ -190,7 +194,7 @@ run_pass(MapType map, const PhotonPassSettings& pass,
     return traced;
 }
 
-/// Emits and traces the photons of one map; trace_photons() joins them.
+/// Emits and traces the photons of one map, and returns them in parts.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPartsT<typename W::Scalar>
 trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
@@ -211,9 +215,12 @@ trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
 
 /// Emits and traces the photons of one map, by several threads.
 ///
-/// The first 2000 paths or so predict the memory; a pass that would need more than
-/// PhotonPassSettings::max_memory is refused at that point. A pass that has stored
+/// After about 2000 paths the memory of the pass is predicted. A pass that would need
+/// more than PhotonPassSettings::max_memory is refused then. A pass that has stored
 /// nothing after PhotonPassSettings::give_up paths ends with a remark.
+/// \param world  The closed scene, with at least one light.
+/// \param map    The kind of map.
+/// \param pass   The settings.
 /// \return The photons in the order of emission, the same for any number of threads.
 /// \throws std::invalid_argument  if the scene has no light or more than 65536, a
 ///         setting is out of range, the memory would not suffice, or there are thin
@@ -224,16 +231,15 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
     return detail::join_parts(detail::trace_parts(world, map, pass));
 }
 
-/// Emits and traces some of the paths of a pass, by one thread, so that several
-/// processes can share a pass: what they trace of it, joined in order, is what
-/// trace_photons() traces.
+/// Emits and traces some of the paths of a pass, by one thread. Several processes can
+/// so share a pass. Their photons, joined in order, are the photons of the whole pass.
 /// \param world  The closed scene, with at least one light.
 /// \param map    The kind of map.
 /// \param pass   The settings of the whole pass, without `threads`, `progress` and
 ///               `give_up`.
 /// \param first  The first path, 0 or more.
 /// \param last   One past the last path, at most `pass.photons`.
-/// \return Their photons in the order of emission, and where their flux went.
+/// \return The photons in the order of emission, and what became of the flux.
 /// \throws std::invalid_argument  as trace_photons(), or if there are no such paths.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/verdict_grid.hpp
-/// \brief Verdicts about shadow rays, precomputed from photons on a grid.
+/// \brief Verdicts about shadow rays, precomputed from photons for the cells of a grid.
 
 #include "ljus/photons/detail/verdict_bits.hpp"
 
@@ -10,21 +10,21 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// The fast counterpart of verdict_at(): a verdict for each cell of a grid, each of the
-/// six facings of a surface, and each light. Shadow photons are from \cite jensen1995.
+/// The fast counterpart of verdict_at(): a verdict for each cell of a grid, for each of
+/// the six facings of a surface, and for each light \cite jensen1995.
 ///
-/// A cell's verdict uses the photons in the cell and its 26 neighbours, which contain
-/// every photon within a cell's length of any point in the cell. If these are too few,
-/// cells of twice and then of four times the length are used. Where the grid says lit,
-/// verdict_at() with the length of the smallest cells finds no shadow photon either.
+/// The verdict of a cell is that of the photons in the cell and in its 26 neighbours.
+/// These 27 cells contain all photons within the length of a cell around any point of
+/// the middle cell. If there are too few photons for a verdict, cells of twice and then
+/// of four times the length are used.
 template <std::floating_point T>
 struct VerdictGridT {
-    detail::VerdictBitsT<T> known{}; ///< By brick.
+    detail::VerdictBitsT<T> known{}; ///< The verdicts, by brick.
     bool dark_known = false;         ///< Whether indirect photons were counted.
 
     /// A cell, with a facing of a surface.
     struct Cell {
-        const std::uint64_t* bits = nullptr; ///< Bits of its brick; null if none.
+        const std::uint64_t* bits = nullptr; ///< Bits of its brick, if there is one.
         std::uint32_t cell = 0;              ///< Index in the brick, 0 to 63.
     };
 
@@ -37,10 +37,10 @@ struct VerdictGridT {
         return known.table.bytes() + known.bits.size() * sizeof(known.bits[0]);
     }
 
-    /// Finds the cell of a point, once for all lights.
+    /// Finds the cell of a point. One cell serves for all lights.
     /// \param point  Point of a surface.
-    /// \param side   +1 for the side of its normal, -1 for the other.
-    /// \cost Some ten nanoseconds.
+    /// \param side   +1 for the side of its normal, -1 for the other side.
+    /// \cost About ten nanoseconds.
     // [cell_of]
     [[nodiscard]] Cell cell_of(const SurfacePointT<T>& point, int side) const noexcept {
         if (empty()) return {};
@@ -61,8 +61,8 @@ struct VerdictGridT {
     }
     // [cell_of]
 
-    /// Whether an indirect photon lies in the cell or a neighbour; true if they were
-    /// not counted.
+    /// Whether an indirect photon lies in the cell or in one of its neighbours. Also
+    /// true if indirect photons were not counted.
     [[nodiscard]] bool indirect_near(const Cell& at) const noexcept {
         if (!dark_known) return true;
         return at.bits != nullptr && (at.bits[2 * known.lights] >> at.cell & 1) != 0;
@@ -72,7 +72,7 @@ using VerdictGrid = VerdictGridT<float>; ///< VerdictGridT in float.
 
 namespace detail {
 
-/// The verdicts of a grid at a vertex, as sample_all_lights() takes them.
+/// The verdicts of a grid at a vertex, in the form that sample_all_lights() expects.
 template <std::floating_point T>
 struct VerdictsAtT {
     const VerdictGridT<T>& grid;       ///< The grid.
@@ -90,15 +90,16 @@ template <std::floating_point T>
     return grid.cell_of(vertex.point, vertex.wo.z < T(0) ? -1 : 1);
 }
 
-/// The verdicts of a grid at a vertex. The grid may be empty; it must outlive the
-/// result.
+/// The verdicts of a grid at a vertex, on the side of `wo`. The grid may be empty, and
+/// must outlive the result.
 template <std::floating_point T>
 [[nodiscard]] VerdictsAtT<T> verdicts_at(const VerdictGridT<T>& grid,
                                          const VertexT<T>& vertex) noexcept {
     return {grid, cell_of(grid, vertex)};
 }
 
-/// Whether a vertex needs no indirect ray, because no indirect photon is near.
+/// Whether an indirect ray from a vertex can be skipped, because no indirect photon is
+/// near. If so, the skipped ray is counted.
 template <std::floating_point T>
 [[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
                                 Counts& counts) noexcept {
@@ -107,9 +108,9 @@ template <std::floating_point T>
     return true;
 }
 
-/// Replaces unknown verdicts by those of a coarser grid. Its neighbourhoods contain
-/// those of the finer grid, so a cell with photons of both kinds stays unknown.
-/// \param coarse  Its cells are twice or four times as large.
+/// Replaces unknown verdicts by those of a coarser grid.
+/// \param coarse  A grid whose cells are longer by the factor `times`.
+/// \param times   2 or 4.
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
     for (std::size_t b = 0; b < fine.table.size(); ++b) {
@@ -132,7 +133,7 @@ void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) 
     }
 }
 
-/// Copies the verdicts of one light to all, for the report's rule.
+/// Copies the verdicts of light 0 to all lights, for SkipRule::report.
 template <std::floating_point T>
 void copy_to_all_lights(VerdictBitsT<T>& grid) {
     for (std::size_t b = 0; b < grid.bits.size(); b += grid.stride())
@@ -142,11 +143,16 @@ void copy_to_all_lights(VerdictBitsT<T>& grid) {
 
 } // namespace detail
 
-/// Computes the verdicts. Direct and shadow photons count, and indirect ones on
-/// request; photons without a normal do not.
-/// \return The grid, the same for any number of threads; empty without photons, and for
-///         SkipRule::none without indirect rays.
-/// \throws std::invalid_argument  if a setting is out of range.
+/// Computes the verdicts of a grid from direct and shadow photons, and from indirect
+/// photons if skip.indirect_rays is set. Photons without a normal are ignored.
+/// \param photons  The photons of a general map.
+/// \param lights   The number of lights.
+/// \param skip     The settings.
+/// \param threads  As in ParallelSettings.
+/// \return The grid, the same for any number of threads. Empty if there are no photons
+///         or if the settings skip no rays.
+/// \throws std::invalid_argument  if a setting is out of range, or if there would be
+///         too many cells.
 template <std::floating_point T>
 [[nodiscard]] VerdictGridT<T>
 make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
@@ -159,10 +165,11 @@ make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
     for (const PhotonT<T>& photon : photons) box = box_union(box, photon.position);
     const T length = detail::cell_length(photons, box, lights, skip);
     if (!(length > 0)) return grid; // all photons at one point
-    // Offset by half a cell, so that walls along the axes lie in the middle of cells.
+    // The corner is offset by half a cell. Walls at the border of the scene then lie in
+    // the middle of cells.
     const Vec3T<T> corner = box.low - T(32.5) * length;
     grid.known = detail::make_bits(photons, {corner, length}, lights, skip, threads);
-    SkipSettings coarse = skip; // of indirect photons only the nearest count
+    SkipSettings coarse = skip; // indirect photons count in the smallest cells only
     coarse.indirect_rays = false;
     for (const int times : {2, 4})
         if (skip.rule != SkipRule::none)

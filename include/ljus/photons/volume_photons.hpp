@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/volume_photons.hpp
-/// \brief Photons where fog scatters them, and the light that they bring to a ray.
+/// \brief Photons at the points where fog scatters them, and the radiance of a ray from
+/// such photons.
 
 #include <array>
 #include <cmath>
@@ -27,37 +28,42 @@ namespace ljus {
 /// \brief Beyond the report: the volume photon map \cite jensen1998 and the beam
 /// radiance estimate \cite jarosz2008. Chapter: \ref ch_volume_photons.
 ///
-/// A photon pass stores a photon where fog scatters one. The light that fog scatters
-/// towards a ray is then a sum over the photons beside the ray,
+/// A photon pass stores a photon at each point where fog scatters a photon. The light
+/// that fog scatters along a ray to its origin is then a sum over the photons near the
+/// ray,
 ///
 /// \f[ L = \sum_i \frac{w(d_i^2 / r_i^2)}{\pi r_i^2}\,\varrho(\theta_i)\,T(t_i)\,
 ///     \Delta\Phi_i , \f]
 ///
-/// where the ray passes photon i at the distance \f$ d_i < r_i \f$ after a way of
-/// \f$ t_i \f$. There is no integral along the ray, and no step.
+/// where d_i is the distance at which the ray passes photon i, t_i the length of the
+/// ray up to there, and r_i the radius of the photon. Only photons with d_i < r_i
+/// count. w is the weight of the kernel, \f$ \varrho \f$ the phase function,
+/// \f$ \theta_i \f$ the angle by which light is turned, T the transmittance of the fog,
+/// and \f$ \Delta\Phi_i \f$ the flux of the photon.
 /// \{
 
 /// A photon in fog.
 template <std::floating_point T>
 struct VolumePhotonT {
-    Vec3T<T> position{T(0)};  ///< Where fog scatters it, in scene units.
-    Vec3T<T> direction{T(0)}; ///< Unit direction of travel before that.
-    RgbT<T> flux{T(0)};       ///< W that are scattered.
-    T radius = T(1);          ///< Of the ball over which it is spread; above 0.
+    Vec3T<T> position{T(0)};  ///< Point where fog scatters it, in scene units.
+    Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
+    RgbT<T> flux{T(0)};       ///< Scattered flux, W.
+    T radius = T(1);          ///< Radius of the ball over which it is spread; above 0.
     std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
 };
 using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
 
-/// How far photons in fog are spread.
+/// How the flux of photons in fog is spread.
 struct BeamEstimateSettings {
-    float radius = 0; ///< Of each ball, in scene units; 0: the distance from the photon
-                      ///< to the nearest-th other one.
-    std::size_t nearest = 10;             ///< Which photon sets the radius, 1 to 511.
-    Kernel kernel = Kernel::epanechnikov; ///< Over the disc across the ray.
+    /// Radius of the balls, in scene units. 0: each photon has its own radius, which is
+    /// the distance to its n-th nearest neighbour, where n is `nearest`.
+    float radius = 0;
+    std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
+    Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.
 };
 
-/// Refuses invalid settings.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings of an estimate in fog.
+/// \throws std::invalid_argument  if a number is out of range.
 inline void check(const BeamEstimateSettings& settings) {
     require(settings.radius >= 0 && std::isfinite(settings.radius),
             "fog_estimate.radius", double(settings.radius),
@@ -66,12 +72,12 @@ inline void check(const BeamEstimateSettings& settings) {
             static_cast<long long>(settings.nearest), "within [1, 511]");
 }
 
-/// Photons in fog, each with its ball, in a tree of the balls' boxes.
+/// Photons in fog, with a tree over the bounding boxes of their balls.
 template <std::floating_point T>
 struct VolumeMapT {
-    /// The tree, as that of a World.
+    /// The type of the tree. A World uses the same type.
     using Tree = std::conditional_t<std::is_same_v<T, float>, Bvh8, BvhT<T>>;
-    Tree tree{};                             ///< The boxes of the balls.
+    Tree tree{};                             ///< The tree over the boxes.
     std::vector<VolumePhotonT<T>> photons{}; ///< In the order of the tree.
 
     /// Whether the map has no photons.
@@ -81,8 +87,9 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 
 namespace detail {
 
-/// Sets the radius of each photon to the distance of the nearest-th other one. Photons
-/// that lie in one place get a thousandth of the extent of all.
+/// Sets the radius of each photon to the distance to its n-th nearest neighbour, where
+/// n is `nearest`. If this distance is 0, the radius is a thousandth of the extent of
+/// all photons.
 // [radii]
 template <std::floating_point T>
 [[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,
@@ -110,15 +117,14 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Builds a map of the photons that fog scatters; other kinds are left out.
-///
-/// A radius that is not given is chosen for each photon. It is small where photons of
-/// this pass are dense, as in a shaft of light. A photon keeps its whole flux, whatever
-/// its radius.
+/// Builds a map of the photons that fog scatters. Photons of other kinds are left out.
+/// \param photons   The photons of a pass.
+/// \param settings  The radius of the photons.
+/// \param threads   As in ParallelSettings.
 /// \return The map, the same for any number of threads.
 /// \throws std::invalid_argument  if a setting is out of range, or a position is not
 ///         finite.
-/// \cost Without a radius a search for each photon.
+/// \cost One search per photon if settings.radius is 0.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] VolumeMapT<T>
 make_volume_map(const std::vector<PhotonT<T>>& photons,
@@ -150,10 +156,14 @@ template <std::floating_point T>
     return static_cast<T>(std::exp(logarithms));
 }
 
-/// The light that one photon brings to a ray, which is of unit length and outside all
-/// bodies; its t_max is the next surface.
-/// \return W/(m^2 sr) at the ray's origin; 0 if the ray does not cross the disc around
-///         the photon.
+/// The radiance that one photon adds to a ray.
+/// \param world   The closed scene.
+/// \param photon  The photon.
+/// \param ray     The ray, with a unit direction, outside all bodies. Its t_max is the
+///                distance to the next surface.
+/// \param kernel  The kernel.
+/// \return W/(m^2 sr) at the origin of the ray. 0 if the ray passes the photon at a
+///         distance above the photon's radius, or ends before.
 // [beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> light_of_photon(const W& world, const VolumePhotonT<T>& photon,
@@ -176,26 +186,30 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 }
 // [beam]
 
-/// The plain counterpart of estimate_beam(): a loop over all photons.
+/// The plain counterpart of estimate_beam(). It loops over all photons.
 // [plain beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> estimate_beam_plain(const W& world, const VolumeMapT<T>& map,
                                           const RayT<T>& ray, const K& kernel) {
-    RgbT<double> sum{0}; // float would lose the last terms
+    RgbT<double> sum{0}; // in double, because float would lose the last terms
     for (const VolumePhotonT<T>& photon : map.photons)
         sum += RgbT<double>(light_of_photon(world, photon, ray, kernel));
     return RgbT<T>(sum);
 }
 // [plain beam]
 
-/// The radiance that fog scatters towards a ray, by the photons of a map. The ray is as
-/// for light_of_photon(); `visited` counts the photons whose boxes it meets.
-///
-/// At the border of the fog, and at a surface, a part of the balls lies outside, and
-/// the estimate is too dark there. What stands between a photon and the ray is not
-/// seen.
+/// The radiance that fog scatters along a ray to its origin, by the photons of a map.
+/// The estimate is too dark near the border of the fog and near surfaces, because a
+/// part of a ball lies outside the fog. Objects between a photon and the ray are
+/// ignored.
+/// \param world    The closed scene.
+/// \param map      The photons.
+/// \param ray      As for light_of_photon().
+/// \param kernel   The kernel.
+/// \param visited  A counter. The number of photons whose boxes the ray meets is added
+///                 to it.
 /// \return Radiance, W/(m^2 sr).
-/// \cost One step for each ball that the ray meets.
+/// \cost One call of light_of_photon() for each box that the ray meets.
 // [tree beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> estimate_beam(const W& world, const VolumeMapT<T>& map,

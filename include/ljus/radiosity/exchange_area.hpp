@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/exchange_area.hpp
-/// \brief The form factor between two flat patches, by an integral along their edges.
+/// \brief The form factor between two flat patches, by integrals along their edges.
 
 #include <array>
 #include <cmath>
@@ -12,19 +12,21 @@
 namespace ljus {
 
 /// \defgroup exchange_area Exchange areas
-/// \brief Section 2.2: the form factor times the area of its patch, which is symmetric.
+/// \brief Section 2.2: the exchange area of two patches is the area of one patch times
+/// its form factor to the other. It is symmetric.
 /// \{
 
 namespace detail {
 
-// The integral of ln(sqrt(z^2 + d^2) / unit) over z, from 0; d >= 0.
+// The integral of ln(sqrt(t^2 + d^2) / unit) over t, from 0 to z; d is at least 0.
 [[nodiscard]] inline double log_once(double z, double d, double unit) noexcept {
     const double r2 = z * z + d * d;
     if (!(r2 > 0)) return 0;
     return z * std::log(r2 / (unit * unit)) / 2 - z + d * std::atan2(z, d);
 }
 
-// The integral of log_once() over z, without the term -3/4 z^2.
+// The integral of log_once() over its first argument, from 0 to z, without the term
+// -3/4 z^2.
 [[nodiscard]] inline double log_twice(double z, double d, double unit) noexcept {
     const double r2 = z * z + d * d;
     if (!(r2 > 0)) return 0;
@@ -32,7 +34,8 @@ namespace detail {
            d * z * std::atan2(z, d);
 }
 
-// Nodes in (0, 1) for integrands with an end like s ln s: the double exponential rule.
+// Nodes in (0, 1) and weights of the double exponential rule. This rule suits
+// integrands that behave like s ln s at an end.
 struct EdgeRule {
     static constexpr int count = 49;
     std::array<double, count> place{};
@@ -55,9 +58,9 @@ struct EdgeRule {
     return rule;
 }
 
-// The integral over two distant edges: Gauss's rule of six points on both, which is
-// exact to the last digit beyond six lengths. The closed form would be a small
-// difference of large numbers there.
+// The integral over two distant edges, by Gauss's rule with six points on each edge. If
+// the distance is above six times the length of the longer edge, the rule is exact to
+// the last digit. The closed form would be a small difference of large numbers.
 [[nodiscard]] inline double edges_apart(const glm::dvec3& way, const glm::dvec3& u,
                                         const glm::dvec3& v, double unit) noexcept {
     constexpr std::array place{0.03376524289842397, 0.1693953067668678,
@@ -75,9 +78,10 @@ struct EdgeRule {
     return glm::dot(u, v) * sum;
 }
 
-// The integral over parallel edges, in closed form. The start of the second edge lies
-// `ahead` along it and `d` across it from the start of the first; `back` is the length
-// of the first edge, negative if the two have opposite directions.
+// The integral over two parallel edges, in closed form. From the start of the first
+// edge to the start of the second, the distance is `ahead` along the second edge and
+// `d` across it. `back` is the length of the first edge, negative if the edges have
+// opposite directions. `length_v` is the length of the second edge.
 [[nodiscard]] inline double parallel_edges(double ahead, double d, double back,
                                            double length_v, double unit) noexcept {
     const auto f = [&](double z) { return log_twice(z, d, unit); };
@@ -85,8 +89,9 @@ struct EdgeRule {
            f(ahead) - 1.5 * length_v * back;
 }
 
-// Splits the first edge at the ends of the second and at its line: fractions of its
-// length in ascending order, including 0 and 1.
+// Splits the first edge at the points that are closest to the ends of the second edge
+// and to its line. Returns fractions of the length of the first edge in ascending
+// order, including 0 and 1.
 [[nodiscard]] inline std::array<double, 5>
 pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
                double length_u, const glm::dvec3& along) noexcept {
@@ -102,13 +107,15 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
     return ends;
 }
 
-/// The integral of the logarithm of the distance over two edges, times the cosine of
-/// their angle.
-///
-/// It has a closed form for parallel edges, and is 0 for perpendicular ones. Otherwise
-/// the inner integral is closed and the outer one is summed by the double exponential
-/// rule \cite takahasi1974, which allows singularities at the ends: the first edge is
-/// split where it comes close to the second.
+/// The integral of the logarithm of the distance r over two edges, times the cosine of
+/// their angle phi. The result is 0 for perpendicular edges, and has a closed form for
+/// parallel edges. In all other cases the inner integral has a closed form, and the
+/// outer integral is summed by the double exponential rule \cite takahasi1974. This
+/// rule allows singularities at the ends of an interval. The first edge is therefore
+/// split where it is close to the second.
+/// \param a, u  Start and vector of the first edge.
+/// \param b, v  Start and vector of the second edge.
+/// \param unit  A length that keeps the logarithm small.
 /// \return \f$\cos\varphi \int\!\!\int \ln(r / \text{unit})\, ds\, dt\f$
 [[nodiscard]] inline double edge_pair(const glm::dvec3& a, const glm::dvec3& u,
                                       const glm::dvec3& b, const glm::dvec3& v,
@@ -127,7 +134,7 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
         return parallel_edges(ahead, d, std::copysign(length_u, cosine), length_v,
                               unit);
     }
-    // Inner integral: over the second edge, seen from the point s of the first.
+    // The inner integral is over the second edge, for the point s of the first edge.
     const auto inner = [&](double s) {
         const glm::dvec3 from = way - s * u;
         const double z = glm::dot(from, along);
@@ -148,18 +155,19 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 
 } // namespace detail
 
-/// The exchange area of two facets with nothing between them: the area of either one
-/// times the form factor to the other.
-///
-/// Stokes' theorem, applied to both areas, leaves an integral along the edges
-/// \cite goral1984 :
+/// The exchange area of two facets with nothing between them: the area A of one facet
+/// times the form factor F to the other. Each facet is first clipped by the plane of
+/// the other. Stokes' theorem, applied to both areas, then gives an integral along the
+/// edges \cite goral1984 :
 /// \f[ A_1 F_{12} = \int_{A_1}\!\int_{A_2}
 ///     \frac{\cos\theta_1 \cos\theta_2}{\pi r^2}\, dA_2\, dA_1
 ///   = \frac{1}{2\pi} \oint\!\oint \ln r\; dx_1 \cdot dx_2. \f]
-/// Each facet is first clipped by the plane of the other.
+/// Here r is the distance of two points x_1 and x_2, and the angles theta are those of
+/// the line between them to the normals. The relative error is about 1e-15
+/// (distance/size)^2.
 /// \return In squared scene units, at least 0.
-/// \cost 1 microsecond for two axis-aligned rectangles, 40 for two at other angles; the
-///       relative error is about 1e-15 (distance / size)^2.
+/// \cost 1 microsecond for two axis-aligned rectangles, 40 microseconds for two
+///       rectangles at other angles.
 /// \report{Section 2.2}
 // [exchange_area]
 [[nodiscard]] inline double exchange_area(const Facet& one, const Facet& two) noexcept {
@@ -189,11 +197,11 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// \addtogroup form_factor
 /// \{
 
-/// The form factor from a floor to a wall on one of its edges.
+/// The form factor from a rectangular floor to a wall that stands on one of its edges.
 /// \param edge    Length of the common edge, above 0.
-/// \param floor   Length of the floor's other side.
+/// \param floor   Length of the floor perpendicular to this edge.
 /// \param height  Height of the wall.
-/// \return From the floor to the wall: 0.2000438 for two unit squares.
+/// \return The form factor; 0.2000438 for two unit squares.
 /// \cite howell2010
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,
                                                double height) noexcept {

@@ -15,15 +15,17 @@ namespace ljus {
 /// for each pair of patches". Chapter: \ref ch_radiosity.
 /// \{
 
-/// The form factors of a scene, as exchange areas \f$ A_i F_{ij} = A_j F_{ji} \f$: one
-/// number serves both directions, so that reciprocity is exact.
+/// The form factors F_ij of a scene, stored as exchange areas
+/// \f$ A_i F_{ij} = A_j F_{ji} \f$, where A_i is the area of patch i. The matrix of
+/// exchange areas is exactly symmetric.
 struct FormFactors {
-    std::vector<double> area{};     ///< Area of each patch, in squared scene units.
-    std::vector<double> exchange{}; ///< Symmetric matrix, row by row; same unit.
+    std::vector<double> area{}; ///< Area of each patch, in squared scene units.
+    /// Exchange areas, in squared scene units: a symmetric matrix, row by row.
+    std::vector<double> exchange{};
 
     /// The number of patches.
     [[nodiscard]] std::size_t size() const noexcept { return area.size(); }
-    /// The exchange areas of a patch with all others.
+    /// The exchange areas of patch i with all patches.
     [[nodiscard]] std::span<const double> row(std::size_t i) const noexcept {
         return {exchange.data() + i * size(), size()};
     }
@@ -31,8 +33,8 @@ struct FormFactors {
     [[nodiscard]] double operator()(std::size_t i, std::size_t j) const noexcept {
         return row(i)[j] / area[i];
     }
-    /// The fraction of the flux of patch i that arrives at any patch: 1 in a closed
-    /// room.
+    /// The fraction of the flux of patch i that arrives at any patch. It is 1 in a
+    /// closed room.
     [[nodiscard]] double row_sum(std::size_t i) const noexcept {
         return detail::pairwise_sum(row(i)) / area[i];
     }
@@ -40,21 +42,24 @@ struct FormFactors {
 
 /// How form factors are computed.
 struct FormFactorSettings {
-    bool analytic = true;   ///< Closed forms between flat patches; false: rays for all.
-    int rays = 256;         ///< Rays per patch whose form factors have no closed form.
-    int shadow_rays = 16;   ///< Between two flat patches, unless the scene is convex.
-    bool closed = false;    ///< No light leaves: make each row's sum exactly 1.
-    std::uint64_t seed = 1; ///< Seed of the random streams.
-    int threads = 0;        ///< As in ParallelSettings.
+    bool analytic = true; ///< Whether flat patches use the closed form.
+    int rays = 256;       ///< Rays per patch that does not use the closed form.
+    /// Rays between two flat patches, to find the visible fraction. None are cast in a
+    /// convex scene, see Patches::convex.
+    int shadow_rays = 16;
+    bool closed = false; ///< For a room without openings: make each row sum exactly 1.
+    std::uint64_t seed = 1;          ///< Seed of the random streams.
+    int threads = 0;                 ///< As in ParallelSettings.
     Progress progress = no_progress; ///< Called with (done, total); false stops.
 };
 
 namespace detail {
 
-/// Scales form factors until each row's sum is 1, as in a closed room, and keeps their
-/// symmetry \cite sinkhorn1967. The noise of rays then neither adds nor removes light,
-/// which matters for an albedo near 1.
-/// \return False if a patch sees no other.
+/// Scales the form factors of a closed room until each row sum is 1, and keeps the
+/// exchange areas symmetric \cite sinkhorn1967. The noise of rays then neither adds nor
+/// removes light. This matters for an albedo near 1.
+/// \return False if a patch exchanges light with no patch, or if the row sums do not
+///         converge.
 inline bool close_rows(FormFactors& factors) {
     const std::size_t n = factors.size();
     std::vector<double> scale(n, 1.0);
@@ -78,13 +83,18 @@ inline bool close_rows(FormFactors& factors) {
 
 } // namespace detail
 
-/// Computes the form factors between all patches: between flat ones the closed form
-/// times the visible fraction, otherwise by rays from both, weighted for minimal noise.
-/// \return The form factors, symmetric to the last bit and the same for any number of
-///         threads; nothing if the progress callback stopped the computation.
-/// \throws std::invalid_argument  if a number of rays is below 1, or rows cannot be
-///         closed.
-/// \cost n^2 numbers of 8 bytes; the chapter has the times.
+/// Computes the form factors between all patches. Between two flat patches, the form
+/// factor is the closed form times the visible fraction. For all other pairs, rays are
+/// cast from each patch of the pair that is not flat; without settings.analytic, from
+/// both patches. Two results are averaged with the weights of the least noise.
+/// \param world     The closed scene.
+/// \param all       The patches.
+/// \param settings  The settings.
+/// \return The form factors, the same for any number of threads. Nothing if the
+///         progress callback stopped the computation.
+/// \throws std::invalid_argument  if a number of rays is below 1, or if settings.closed
+///         is set and the row sums cannot be made 1.
+/// \cost 8 n^2 bytes for n patches.
 /// \report{Section 2.2}
 template <AnyWorld W>
 [[nodiscard]] std::optional<FormFactors>

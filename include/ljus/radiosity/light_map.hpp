@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/radiosity/light_map.hpp
-/// \brief The irradiance of all surfaces, and pictures of it from any camera.
+/// \brief The irradiance of all surfaces, and a renderer that draws them for any
+/// camera.
 
 #include <span>
 #include <vector>
@@ -20,8 +21,8 @@ namespace ljus {
 /// real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
-/// Identifies what a light map was made of; see light_map_key(). A map belongs to one
-/// scene, and a saved map is loaded for the same key only.
+/// Identifies the scene and the settings of which a light map was made; see
+/// light_map_key(). A saved map can be loaded for the same key only.
 struct LightMapKey {
     std::uint64_t scene = 0;    ///< Hash of shapes, materials and lights.
     std::uint64_t settings = 0; ///< Hash of the settings that change the map.
@@ -29,11 +30,11 @@ struct LightMapKey {
     friend bool operator==(const LightMapKey&, const LightMapKey&) = default;
 };
 
-/// The light on the surfaces of a scene, for any viewpoint. It holds irradiance, not
-/// radiosity; the surface's albedo is applied when it is drawn.
+/// The irradiance of all patches of a scene. The albedo of a surface is applied when
+/// the map is drawn.
 struct LightMap {
     LightMapKey key{};                      ///< Identifies scene and settings.
-    std::vector<PatchGrid> grids{};         ///< One per side of an object.
+    std::vector<PatchGrid> grids{};         ///< One grid per side of an object.
     std::vector<RgbT<double>> irradiance{}; ///< Irradiance of each patch, W/m^2.
 };
 
@@ -53,7 +54,7 @@ template <AnyWorld W>
     std::apply(lists, world.materials());
     hash.add(world.objects());
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
-        if (!world.can_be_met(i)) // the others are among shapes and objects
+        if (!world.can_be_met(i)) // lamps are among the shapes and objects
             world.visit_light(i, [&]<typename L>(const L& light) {
                 hash.template add_name_of<L>();
                 hash.add(light);
@@ -61,8 +62,9 @@ template <AnyWorld W>
     return hash.value;
 }
 
-/// The indices of a cell's vertices in its grid: four of a quad, three of a triangle.
-/// On a ball the first and the last column have one vertex each, a pole.
+/// The indices of a cell's vertices in its grid: four for a quad or a ball, three and
+/// no_grid for a triangle. On a ball the lines of vertices before the first and after
+/// the last column are single vertices, the poles.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {
@@ -83,8 +85,11 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
 
 } // namespace detail
 
-/// The light at the vertices of a grid: the mean of the adjacent cells' irradiance,
-/// after Gouraud \cite gouraud1971.
+/// The irradiance at the vertices of a grid: the mean over the adjacent cells
+/// \cite gouraud1971.
+/// \param grid        The grid.
+/// \param irradiance  The irradiance of each cell, W/m^2.
+/// \return The irradiance at each vertex, W/m^2.
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -102,18 +107,19 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
 
 /// How a light map is drawn.
 struct LightMapSettings {
-    bool smooth = true; ///< Interpolate between vertices; false: constant patches.
+    bool smooth = true; ///< True: interpolated between vertices; false: flat patches.
 };
 
-/// A light map with its world: a renderer for `render(view, camera, picture)`.
+/// A renderer that draws a light map, by `render(view, camera, picture)`.
 template <typename W>
 class LightMapView {
 public:
-    using Stream = RandomStream; ///< Not used.
+    using Stream = RandomStream; ///< Required of a renderer, but not used.
 
-    /// \param of    The world that the map was made for; must outlive the view.
+    /// Makes the renderer.
+    /// \param of    The world for which the map was made; must outlive the view.
     /// \param map   The light map.
-    /// \param look  How it is drawn.
+    /// \param look  How the map is drawn.
     /// \throws std::invalid_argument  if the map was made for another world.
     LightMapView(WorldRef<W> of, LightMap map, const LightMapSettings& look = {})
         : world_(of), map_(std::move(map)), look_(look) {
@@ -153,9 +159,9 @@ public:
     [[nodiscard]] const LightMap& map() const noexcept { return map_; }
     /// How the map is drawn.
     [[nodiscard]] const LightMapSettings& look() const noexcept { return look_; }
-    /// The grid of each side, as in Patches::grid_of.
+    /// The number of the grid of each side of each object, as in Patches::grid_of.
     [[nodiscard]] const auto& grid_of() const noexcept { return grid_of_; }
-    /// vertex_light() of each grid.
+    /// The result of vertex_light() for each grid.
     [[nodiscard]] const auto& vertices() const noexcept { return vertices_; }
 
 private:
@@ -169,8 +175,11 @@ private:
 template <typename W>
 LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 
-/// The irradiance at a point of a grid, interpolated between its cell's vertices, in
-/// W/m^2.
+/// The irradiance at a point of a grid, interpolated between the vertices of its cell.
+/// \param grid      The grid.
+/// \param at        The point in the coordinates of the shape, in [0, 1]^2.
+/// \param vertices  The result of vertex_light().
+/// \return W/m^2.
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {
@@ -185,9 +194,9 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
            t.y * vertices[v[2]];
 }
 
-/// The radiance along a ray: one intersection and one look-up in the map.
-/// \return Emitted radiance plus albedo / pi times irradiance, W/(m^2 sr); surfaces
-///         without patches are black.
+/// The radiance along a ray, by one intersection and one look-up in the map.
+/// \return Emitted radiance plus albedo/pi times irradiance, W/(m^2 sr). Surfaces
+///         without patches reflect nothing.
 /// \report{Section 2.2}
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>
@@ -204,7 +213,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
     const auto& object = world.object(hit->object);
     const detail::HitSideT<T> side = detail::side_of(world, ray, *hit);
     RgbT<T> sum = side.back ? RgbT<T>(0) : object.emission;
-    if constexpr (W::lists_pictures) // at this place of a textured lamp
+    if constexpr (W::lists_pictures) // a textured lamp varies from point to point
         if (!side.back) sum = vertex_at(world, ray, *hit).object.emission;
     context.log.term("emission", "L", sum);
     const std::uint32_t number =

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/patch_grid.hpp
-/// \brief The sides of shapes, divided into cells.
+/// \brief Grids that divide the sides of shapes into cells.
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,12 @@
 namespace ljus {
 
 /// \defgroup patch_grid Grids of patches
-/// \brief Section 2.2: the position of a patch on its shape, and the patch of a point.
+/// \brief Section 2.2: where a patch lies on its shape, and in which patch a point
+/// lies.
 ///
-/// A point of a shape has coordinates in the unit square: u and v of a hit on a flat
-/// shape; height and azimuth on a ball, where equal squares are equal areas.
+/// A point of a shape has coordinates in the unit square. On a flat shape they are u
+/// and v of a hit. On a ball they are height and azimuth, so that equal squares have
+/// equal areas.
 /// \{
 
 namespace detail {
@@ -25,7 +27,7 @@ namespace detail {
 enum class GridKind : std::uint8_t {
     quad,     ///< Columns along u and rows along v.
     triangle, ///< columns^2 congruent triangles.
-    ball,     ///< Like a quad, with the first and the last row adjacent.
+    ball,     ///< As a quad, but the first and the last row are neighbours.
 };
 
 } // namespace detail
@@ -33,12 +35,12 @@ enum class GridKind : std::uint8_t {
 /// The cells of one side of a shape.
 struct PatchGrid {
     ObjectId object{};                              ///< The object.
-    detail::GridKind kind = detail::GridKind::quad; ///< How it is divided.
-    bool back = false;                              ///< The side that does not emit.
-    bool inward = false;       ///< The side opposite to the shape's own normal.
-    std::uint32_t columns = 1; ///< At least 1.
-    std::uint32_t rows = 1;    ///< At least 1; equal to `columns` for a triangle.
-    std::uint32_t first = 0;   ///< The index of its first patch.
+    detail::GridKind kind = detail::GridKind::quad; ///< How the shape is divided.
+    bool back = false;         ///< True for the side of the object that does not emit.
+    bool inward = false;       ///< True for the side against the shape's normal.
+    std::uint32_t columns = 1; ///< Number of columns, at least 1.
+    std::uint32_t rows = 1;    ///< Number of rows; equal to `columns` for a triangle.
+    std::uint32_t first = 0;   ///< The index of the first patch of this grid.
 
     /// The number of cells.
     [[nodiscard]] constexpr std::uint32_t size() const noexcept {
@@ -56,7 +58,7 @@ struct PatchGrid {
 
 namespace detail {
 inline std::uint32_t cells_along(double length, double size) noexcept {
-    // The limit prevents overflow; a million cells are refused anyway.
+    // The limit prevents overflow. make_patches() refuses so many cells.
     return static_cast<std::uint32_t>(
         std::clamp(std::ceil(length / size * (1 - 1e-9)), 1.0, 1e6));
 }
@@ -65,7 +67,7 @@ inline std::uint32_t cells_along(double length, double size) noexcept {
 /// \name Grids for shapes
 /// \{
 
-/// The grid for the front of a shape, with cells of edge length at most `size`.
+/// The grid for the front of a shape. The edges of its cells are at most `size` long.
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
     return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),
@@ -90,12 +92,14 @@ template <std::floating_point T>
 
 /// The position of a cell in its grid.
 struct CellPlace {
-    std::uint32_t column = 0; ///< Along u.
-    std::uint32_t row = 0;    ///< Along v.
-    bool upper = false;       ///< A triangle with its tip down.
+    std::uint32_t column = 0; ///< Number of the column, along u.
+    std::uint32_t row = 0;    ///< Number of the row, along v.
+    bool upper = false;       ///< True for a triangle that stands on its tip.
 };
 
 /// The position of a cell.
+/// \param grid  The grid.
+/// \param cell  The index of the cell within the grid.
 [[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
                                            std::uint32_t cell) noexcept {
     if (grid.kind != detail::GridKind::triangle)
@@ -106,10 +110,11 @@ struct CellPlace {
 }
 
 /// The cell that contains a point of the shape.
-/// \param grid  The grid.
-/// \param at    The point in (u, v); it is clamped to the unit square.
-/// \param local Receives the point in the cell's own unit square, unless it is null.
-/// \return The cell's index within the grid.
+/// \param grid   The grid.
+/// \param at     The coordinates (u, v) of the point; clamped to the unit square.
+/// \param local  If not null, receives the coordinates of the point within the cell, in
+///               [0, 1]^2.
+/// \return The index of the cell within the grid.
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
                                            glm::dvec2* local = nullptr) noexcept {
     const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
@@ -149,8 +154,10 @@ template <AnyWorld W, std::floating_point T>
     return {outer, inward != world.object(hit.object).inside_out};
 }
 
-/// The coordinates of a hit on its shape, in the unit square. On a ball they come from
-/// the shape's own normal.
+/// The coordinates of a hit on its shape, in the unit square.
+/// \param kind          How the shape is divided.
+/// \param hit           The hit; used on a flat shape.
+/// \param outer_normal  The shape's own unit normal at the hit; used on a ball.
 template <std::floating_point T>
 [[nodiscard]] glm::dvec2 place_on(GridKind kind, const ShapeHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {
@@ -160,8 +167,8 @@ template <std::floating_point T>
     return {(1 - double(outer_normal.z)) / 2, turn < 0 ? turn + 1 : turn};
 }
 
-/// A point of a cell, uniform over its area.
-/// \return The point, with the normal of the grid's side.
+/// Samples a point of a cell, uniformly over its area.
+/// \return The point. Its normal is on the side of the grid.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
                                            std::uint32_t cell,
@@ -181,7 +188,9 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// The corners of a cell of a flat shape, facing the grid's side.
+/// The corners of a cell of a flat shape. The facet faces the side of the grid.
+/// \param whole  The corners of the shape.
+/// \param cell   The index of the cell within the grid.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
                                       std::uint32_t cell) noexcept {
     const CellPlace place = place_of(grid, cell);

@@ -20,8 +20,10 @@ namespace ljus {
 
 namespace detail {
 
-/// A point of a patch, uniform over its area.
-/// \return The point, with the normal of the patch's side.
+/// Samples a point of a patch, uniformly over its area.
+/// \param number  The index of the patch.
+/// \param u       Point of the unit square.
+/// \return The point. Its normal is on the side of the patch.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
@@ -30,12 +32,12 @@ template <AnyWorld W, std::floating_point T>
         if constexpr (Cuttable<std::remove_cvref_t<decltype(shape)>>)
             return sample_cell(grid, shape, number - grid.first, u);
         else
-            return SurfacePointT<T>{}; // such a shape has no patches
+            return SurfacePointT<T>{}; // not reached: the shape has no patches
     });
 }
 
 /// The patch that a ray has hit.
-/// \return The patch's index; nothing for a side without patches.
+/// \return The index of the patch; nothing if the hit side has no patches.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<std::uint32_t> patch_at(const W& world, const Patches& all,
                                                     const RayT<T>& ray,
@@ -50,13 +52,16 @@ template <AnyWorld W, std::floating_point T>
 
 } // namespace detail
 
-/// Casts cosine-weighted rays from a patch, at least one. The fraction that arrives at
-/// another patch is the form factor, including visibility; each arrival adds
-/// area / rays to the row of exchange areas.
-///
-/// Rays *between* two patches have the weight cos cos / r^2, which is unbounded where
-/// the patches touch; the weight here is constant.
-/// \cite malley1988
+/// Casts cosine-weighted rays from a patch \cite malley1988. The fraction of the rays
+/// that hit another patch is the form factor to that patch, including visibility. All
+/// rays have the same weight.
+/// \param world   The closed scene.
+/// \param all     The patches.
+/// \param number  The index of the patch.
+/// \param rays    The number of rays, at least 1.
+/// \param seed    Seed of the random streams.
+/// \param row     The exchange areas of the patch. Each ray adds the area of the patch
+///                over the number of rays to the element of the patch that it hits.
 // [shoot_rays]
 template <AnyWorld W>
 void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int rays,
@@ -68,7 +73,7 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
     for (int i = 0; i < rays; ++i) {
         RandomStream stream = random_stream(seed, Pass::form_factors, number,
                                             static_cast<std::uint64_t>(i));
-        // Positions and directions are stratified, and paired in a random order.
+        // Positions and directions are both stratified. They are paired at random.
         const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), key));
         const Vec2T<T> place =
@@ -88,9 +93,13 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
 
 namespace detail {
 
-/// The visible fraction of the exchange between two patches, by rays between points of
-/// both. Each ray is weighted by the exchange along it.
-/// \return In [0, 1]; the exchange itself comes from the closed form.
+/// The visible fraction of the exchange between two patches, by rays between random
+/// points of both patches. The weight of a ray is the product of the cosines at its
+/// ends over its squared length.
+/// \param one   The index of one patch.
+/// \param two   The index of the other patch.
+/// \param rays  The number of rays, at least 1.
+/// \return In [0, 1].
 template <AnyWorld W>
 [[nodiscard]] double visible_fraction(const W& world, const Patches& all,
                                       std::uint32_t one, std::uint32_t two, int rays,
@@ -103,7 +112,7 @@ template <AnyWorld W>
         RandomStream stream = random_stream(seed, Pass::form_factors, pair,
                                             static_cast<std::uint64_t>(i));
         const Vec2T<T> u = detail::stratified(strata, i, pair, next_2d<T>(stream));
-        // The same strata on the other patch, in another order.
+        // The other patch has the same strata in another order.
         const auto other = static_cast<int>(detail::shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
         const Vec2T<T> v = detail::stratified(strata, other, ~pair, next_2d<T>(stream));

@@ -24,32 +24,35 @@ struct Patch {
     double area = 0;         ///< In squared scene units.
     RgbT<double> albedo{0};  ///< Reflected fraction of the light.
     RgbT<double> emitted{0}; ///< Emitted radiosity, W/m^2: pi times the radiance.
-    Facet facet{};           ///< Its corners, facing its side; empty on a ball.
+    Facet facet{};           ///< The corners of a flat patch; empty on a ball.
 };
 // [patch]
 
-/// Stands for the index of no grid.
+/// The index of a grid that does not exist.
 inline constexpr std::uint32_t no_grid = 0xffffffffu;
 
 /// The patches of a scene.
 struct Patches {
-    std::vector<PatchGrid> grids; ///< One per side of an object.
-    std::vector<Patch> patches;   ///< Grid by grid.
-    bool convex = true;           ///< True if nothing can stand between two patches.
-    std::vector<std::string> left_out; ///< Sentences on what radiosity leaves out.
-    /// The grid of each side: by type and index of the object, front and back.
+    std::vector<PatchGrid> grids; ///< One grid per side of an object.
+    std::vector<Patch> patches;   ///< The patches, grid by grid.
+    bool convex = true;           ///< True if nothing can lie between two patches.
+    /// Sentences about objects and lights that radiosity leaves out.
+    std::vector<std::string> left_out;
+    /// The grids of each object, by the type and the index of the object. Each element
+    /// has the index of the grid of the front, then that of the back. A side without
+    /// patches has no_grid.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
 };
 
 /// How a scene is divided.
 struct PatchSettings {
-    double size = 0.25; ///< The largest edge length of a patch, scene units.
-    std::uint32_t most =
-        8192; ///< The largest number of patches; memory has its square.
+    double size = 0.25; ///< The largest edge length of a patch, in scene units.
+    /// The largest number of patches. n patches take 8 n^2 bytes of memory.
+    std::uint32_t most = 8192;
 };
 
-/// The albedo of a material for radiosity. A material with this function must reflect
-/// the same radiance in all directions.
+/// The albedo of a material for radiosity. A material of your own may provide this
+/// function if it reflects the same radiance in all directions.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<double> diffuse_albedo(const LambertianT<T>& m) noexcept {
     return RgbT<double>(m.albedo);
@@ -61,7 +64,7 @@ concept Matt = requires(const M& m) {
     diffuse_albedo(m);
 };
 
-/// A flat shape, whose form factors have a closed form.
+/// A flat shape. Its form factors have a closed form.
 template <typename S>
 concept Flat = requires(const S& shape) {
     facet_of(shape);
@@ -69,7 +72,7 @@ concept Flat = requires(const S& shape) {
 
 namespace detail {
 
-// An upper bound of a shape's extent along a normal.
+// An upper bound of the dot product of a unit normal with any point of a shape.
 template <typename S>
 double extent_along(const S& shape, const glm::dvec3& normal) {
     if constexpr (Flat<S>) {
@@ -97,8 +100,9 @@ void each_shape(const W& world, F f) {
     each_array(world.shapes(), all);
 }
 
-// True if anything in the scene may lie in front of a side of a flat shape. A ball
-// always has something in front of the side that its normal points to.
+// Whether a side of a shape needs patches. A side of a flat shape does if anything in
+// the scene may lie in front of it. A ball has patches on one side only: outside, or
+// inside if the object is inside out.
 template <AnyWorld W, typename G>
 bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out) {
     if constexpr (Flat<G>) {
@@ -142,7 +146,8 @@ void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
     all.grids.push_back(grid);
 }
 
-// Divides the open sides of a matt object, and returns the grids of its front and back.
+// Divides the sides of a matt object for which `open` is true. Returns the indices of
+// the grids of its front and its back.
 template <typename S, std::floating_point T>
 std::array<std::uint32_t, 2>
 cut_sides(Patches& all, const S& shape, ObjectId id, const ObjectT<T>& object,
@@ -170,13 +175,14 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 
 } // namespace detail
 
-/// Divides the matt surfaces of a scene into patches: quads, triangles and balls.
-///
-/// A wall has patches on both sides, except on a side that nothing lies in front of. A
-/// ball has patches on the side that its normal points to. Other objects occlude, but
-/// reflect no light: `left_out` names them.
-/// \throws std::invalid_argument  if `size` is not above 0, if there are more patches
-///         than `most`, or none, or if the scene has fog.
+/// Divides the quads, triangles and balls of a scene that have a Matt material into
+/// patches. A flat shape has patches on each side in front of which something lies. A
+/// ball has patches outside or, if the object is inside out, inside. All other objects
+/// occlude, but reflect no light; Patches::left_out counts them.
+/// \param world     The closed scene.
+/// \param settings  The size of the patches, and their largest number.
+/// \throws std::invalid_argument  if the size is not above 0, if there are no patches
+///         or too many, or if the scene has fog.
 /// \cost One test per pair of objects.
 /// \report{Section 2.2}
 template <AnyWorld W>
@@ -194,7 +200,7 @@ template <AnyWorld W>
         for (const bool back : {false, true})
             open[back] = detail::faces_anything(world, shape, back != object.inside_out,
                                                 object.inside_out);
-        // A wall with something in front of one side only occludes nothing.
+        // A wall that has objects on one side only occludes nothing.
         all.convex =
             all.convex && (Flat<G> ? !(open[0] && open[1]) : object.inside_out);
         std::array<std::uint32_t, 2> sides{no_grid, no_grid};
@@ -217,8 +223,8 @@ template <AnyWorld W>
     detail::say(all, unknown, " object is of a shape that is not divided into patches",
                 " objects are of a shape that is not divided into patches");
     detail::say(all, static_cast<long long>(world.light_count()) - lamps,
-                " light is no surface with patches and lights nothing",
-                " lights are no surfaces with patches and light nothing");
+                " light has no patches and lights no surface",
+                " lights have no patches and light no surface");
     require(!all.patches.empty(), "the number of patches", 0LL,
             "at least 1: add a Lambertian quad, triangle or ball that sees another");
     return all;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/radiosity.hpp
-/// \brief From a scene to its light map: patches, form factors, linear equations.
+/// \brief Makes the light map of a scene by patches, form factors and linear equations.
 
 #include "ljus/radiosity/light_map.hpp"
 #include "ljus/radiosity/radiosity_solve.hpp"
@@ -19,24 +19,27 @@ struct RadiositySettings {
     SolveSettings solve{};        ///< How the equations are solved.
 };
 
-/// The flux that is emitted and where it ends, in W.
+/// What becomes of the emitted flux, in W.
 struct EnergyBalance {
-    RgbT<double> emitted{0};  ///< By all patches.
-    RgbT<double> absorbed{0}; ///< By all patches.
-    RgbT<double> escaped{0};  ///< Through openings, and to surfaces without patches.
+    RgbT<double> emitted{0};  ///< Flux that all patches emit.
+    RgbT<double> absorbed{0}; ///< Flux that all patches absorb.
+    RgbT<double> escaped{0};  ///< Flux through openings, or to other surfaces.
 };
 
 /// The results of radiosity, step by step.
 struct Radiosity {
     Patches patches{};            ///< The patches of the scene.
-    FormFactors factors{};        ///< Between all patches.
+    FormFactors factors{};        ///< The form factors between all patches.
     RadiositySolution solution{}; ///< The radiosity of each patch.
     LightMap map{};               ///< The irradiance of each patch, to draw and save.
 };
 
 /// The energy balance of a solution.
-/// \return Emitted = absorbed + escaped, up to rounding, if the equations are solved
-///         and the form factors reciprocal, for any size of patches and number of rays.
+/// \param patches    The patches.
+/// \param factors    The form factors.
+/// \param radiosity  The radiosity of each patch, W/m^2.
+/// \return For an exact solution, emitted is absorbed plus escaped, up to rounding, for
+///         any size of patches and any number of rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -51,8 +54,8 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     return sum;
 }
 
-/// The key of a light map: a hash of the scene and of the settings that change the map,
-/// which progress and threads do not.
+/// The key of a light map: a hash of the scene, and a hash of the settings that change
+/// the map.
 template <AnyWorld W>
 [[nodiscard]] LightMapKey light_map_key(const W& world,
                                         const RadiositySettings& settings) {
@@ -65,8 +68,12 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution; it also has the light that a patch has not yet shot.
-/// Its key lacks the settings.
+/// The light map of a solution. It also contains the light that is still unshot. Its
+/// key has only the hash of the scene; see light_map_key().
+/// \param world      The closed scene.
+/// \param patches    The patches.
+/// \param factors    The form factors.
+/// \param radiosity  The radiosity of each patch, W/m^2.
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,
@@ -76,9 +83,12 @@ template <AnyWorld W>
             .irradiance = detail::multiply(factors, radiosity)};
 }
 
-/// Radiosity of a scene, from the patches to the light map.
-/// \return All results; nothing if the progress callback of the form factors stopped
-///         the computation. See Patches::left_out.
+/// Computes the radiosity of a scene, from the patches to the light map.
+/// \param world     The closed scene.
+/// \param settings  All settings.
+/// \return All results. Patches::left_out says which objects and lights are left out.
+///         Nothing if the progress callback of the form factors stopped the
+///         computation.
 /// \throws std::invalid_argument  as make_patches(), make_form_factors() and
 ///         solve_radiosity().
 /// \report{Section 2.2}

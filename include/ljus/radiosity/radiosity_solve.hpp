@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/radiosity/radiosity_solve.hpp
-/// \brief The linear equations of radiosity, with four solvers.
+/// \brief The linear equations of radiosity, and four solvers.
 
 #include <vector>
 
@@ -14,34 +14,40 @@ namespace ljus {
 /// equation system". Chapter: \ref ch_radiosity.
 ///
 /// \f[ B_i = E_i + \rho_i \sum_j F_{ij} B_j \f]
+///
+/// Here B_i is the radiosity of patch i, E_i its emitted radiosity, \f$ \rho_i \f$ its
+/// albedo, and F_ij the form factor from patch i to patch j. The *unshot* light of a
+/// patch is the part of its radiosity that has not yet been sent to the other patches.
 /// \{
 
-/// How the equations are solved.
+/// A method to solve the equations for n patches.
 enum class RadiositySolver : std::uint8_t {
     lu,           ///< Elimination: exact, in n^3/3 steps \cite goral1984.
-    jacobi,       ///< All patches at once from the previous values: one bounce.
-    gauss_seidel, ///< One patch after the other, from the newest values.
-    shooting,     ///< The patch with the most unshot flux first \cite cohen1988.
+    jacobi,       ///< Shoots the light of all patches at once: one bounce per sweep.
+    gauss_seidel, ///< Shoots the light of one patch after the other, in order.
+    shooting,     ///< Shoots the patch with the most unshot flux first \cite cohen1988.
 };
 
-/// Which solver is used, and when it stops.
+/// The solver, and when it stops.
 struct SolveSettings {
     RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
-    double tolerance = 1e-12; ///< Unshot flux, as a fraction of the emitted flux.
-    int max_sweeps = 10000;   ///< One sweep is one step per patch.
-    int threads = 0;          ///< For jacobi; as in ParallelSettings.
+    /// The solver stops when the unshot flux is this fraction of the emitted flux.
+    double tolerance = 1e-12;
+    int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
+    int threads = 0;        ///< For RadiositySolver::jacobi; as in ParallelSettings.
 };
 
 /// The radiosity of all patches.
 struct RadiositySolution {
-    std::vector<RgbT<double>> radiosity{}; ///< B, in W/m^2: emitted and reflected.
-    std::vector<double> residual{};        ///< Unshot flux after each sweep.
-    bool converged = true;                 ///< True if the tolerance was reached.
+    std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, W/m^2.
+    /// The unshot flux over the emitted flux: at the start, and after each sweep.
+    std::vector<double> residual{};
+    bool converged = true; ///< True if the tolerance was reached.
 };
 
 namespace detail {
 
-// Solves a x = b in place by elimination with row pivoting.
+// Solves a x = b by elimination with row pivoting. x replaces b.
 inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     const std::size_t n = b.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -69,10 +75,11 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     }
 }
 
-/// Solves by elimination: all channels at once if every patch is grey, otherwise one by
-/// one.
+/// Solves the equations by elimination. If the albedo of every patch is grey, all
+/// channels are solved at once, otherwise one channel after the other.
 /// \return Radiosity, W/m^2.
-/// \cost Memory for n^2 numbers, n^3/3 multiplications: 10 s for 3000 patches.
+/// \cost Memory for n^2 numbers, and n^3/3 multiplications per solution: 10 s for 3000
+///       patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
 solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     const std::size_t n = patches.size();
@@ -100,6 +107,7 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
 }
 
 /// The irradiance of all patches.
+/// \param radiosity  The radiosity of each patch, W/m^2.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications per channel.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -118,8 +126,7 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return irradiance;
 }
 
-// The unshot flux as a fraction of the emitted flux, in the channel where it is
-// largest.
+// The unshot flux over the emitted flux, in the channel for which this is largest.
 [[nodiscard]] inline double unshot_fraction(const FormFactors& factors,
                                             const std::vector<RgbT<double>>& unsent,
                                             const RgbT<double>& emitted) {
@@ -132,7 +139,8 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return share;
 }
 
-// Refuses patches that receive all their light back: their radiosity would be infinite.
+// Refuses a patch whose albedo times row sum is 1 or more, because the solution could
+// be infinite.
 inline void require_loss(const FormFactors& factors,
                          const std::vector<Patch>& patches) {
     double most = 0;
@@ -143,7 +151,8 @@ inline void require_loss(const FormFactors& factors,
 }
 
 /// Shoots the unshot light of all patches at once: one bounce.
-/// The shot light is added to `solution` and removed from `unsent`.
+/// \param solution  The radiosity, W/m^2. The shot light is added.
+/// \param unsent    The unshot light, W/m^2. Receives the light after the bounce.
 /// \cost n^2 multiplications per channel.
 inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
                       int threads, std::vector<RgbT<double>>& solution,
@@ -156,15 +165,19 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 
 } // namespace detail
 
-/// Shoots the unshot light of one patch to all others. Gauss-Seidel and shooting repeat
-/// this step in different orders.
-/// The shot light is added to `solution`; `unsent` of patch i becomes 0.
+/// Shoots the unshot light of one patch to all others. The solvers gauss_seidel and
+/// shooting repeat this step in different orders.
+/// \param factors   The form factors.
+/// \param patches   The patches.
+/// \param i         The index of the patch.
+/// \param solution  The radiosity, W/m^2. The shot light is added to that of patch i.
+/// \param unsent    The unshot light, W/m^2. That of patch i becomes 0.
 /// \cost n multiplications per channel.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
                         std::size_t i, std::vector<RgbT<double>>& solution,
                         std::vector<RgbT<double>>& unsent) {
-    // A concave patch shoots light to itself: a geometric series.
+    // A concave patch shoots light to itself. The sum is a geometric series.
     const RgbT<double> sent = unsent[i] / (1.0 - factors(i, i) * patches[i].albedo);
     solution[i] += sent;
     const auto row = factors.row(i);
@@ -174,8 +187,10 @@ inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& pa
 }
 // [relax]
 
-/// The patch with the most unshot flux: Southwell's choice.
-/// \return Its index; the first one of equals.
+/// The patch with the most unshot flux.
+/// \param factors  The form factors.
+/// \param unsent   The unshot light of each patch, W/m^2.
+/// \return The index of the patch; the first index if several patches have the most.
 [[nodiscard]] inline std::size_t
 brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
@@ -190,13 +205,18 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 
 /// Solves the equations of radiosity.
 ///
-/// All solvers except `lu` start with B = 0 and all light unshot. In a sweep of jacobi
-/// or gauss_seidel the unshot light falls at least by the factor of the largest albedo,
-/// so that \f$ \log\varepsilon / \log\rho_{max} \f$ sweeps are enough.
+/// All solvers except `lu` start with a radiosity of 0 and with all emitted light
+/// unshot. A sweep of jacobi or gauss_seidel multiplies the unshot light by at most the
+/// largest albedo rho. For a tolerance epsilon, log(epsilon)/log(rho) sweeps are
+/// therefore enough.
+/// \param factors   The form factors.
+/// \param patches   The patches.
+/// \param settings  The solver, and when it stops.
 /// \return The radiosity, and the unshot flux after each sweep.
-/// \throws std::invalid_argument  if a patch reflects all the light that it receives,
-///         or more: an albedo of 1 in a closed room, or a row sum above 1 by noise.
-/// \cost n^2 multiplications per sweep and channel.
+/// \throws std::invalid_argument  if the albedo of a patch times its row sum is not
+///         below 1. This happens for an albedo of 1 in a closed room, or if the noise
+///         of rays makes a row sum larger than 1.
+/// \cost n^2 multiplications per sweep and channel; n^3/3 for `lu`.
 /// \report{Section 2.2}
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/flux_in_disc.hpp
-/// \brief The flux around a point, eight photons at a time.
+/// \brief The flux in a disc around a point, summed eight photons at a time.
 
 #include <algorithm>
 #include <array>
@@ -17,21 +17,20 @@
 
 namespace ljus::detail {
 
-/// The disc in which flux is summed. A photon is tested in the precision of the
-/// photons.
+/// The disc in which flux is summed. Photons are tested in the precision T.
 template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
-    Vec3T<T> center{T(0)};             ///< Its centre.
+    Vec3T<T> center{T(0)};             ///< The centre.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal of the surface.
-    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons that travel against it count.
-    T radius = T(1);                   ///< Between 1e-15 and 1e15.
-    T thickness = T(0.5);              ///< Half its height over its radius.
+    Vec3T<T> from{T(0), T(0), T(1)};   ///< Photons that travel against this count.
+    T radius = T(1);                   ///< In scene units, between 1e-15 and 1e15.
+    T thickness = T(0.5);              ///< Half the height over the radius.
     K kernel{};                        ///< The weight by distance.
-    PhotonKinds kinds = all_kinds;     ///< The kinds that count.
+    PhotonKinds kinds = all_kinds;     ///< The kinds of photons that count.
 };
 
-/// kernel_weight() of eight photons; x is the squared distances over the squared
-/// radius, each in [0, 1].
+/// kernel_weight() of eight photons.
+/// \param x  Eight squared distances over the squared radius, each in [0, 1].
 template <std::floating_point T, KernelLike<T> K>
 [[nodiscard]] LanesT<T> kernel_weights(const K& kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
@@ -39,7 +38,7 @@ template <std::floating_point T, KernelLike<T> K>
     return weight;
 }
 
-/// kernel_weights() of a kernel chosen at run time.
+/// kernel_weight() of eight photons, for a kernel that is chosen at run time.
 template <std::floating_point T>
 [[nodiscard]] LanesT<T> kernel_weights(Kernel kernel, const LanesT<T>& x) noexcept {
     LanesT<T> weight;
@@ -67,8 +66,8 @@ template <std::floating_point T>
     return weight;
 }
 
-// Tests eight photons: 1 for those in the disc, otherwise 0. The loops are small,
-// because compilers do not always vectorise long ones.
+// Tests eight photons. The result is 1 for each photon in the disc, otherwise 0. There
+// are several small loops, because compilers do not always vectorise a long loop.
 template <std::floating_point T, typename K>
 [[nodiscard]] inline LanesT<T>
 lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
@@ -100,7 +99,8 @@ lanes_in_disc(const Lanes3T<T>& points, const RecordBlockT<T>& record,
     return inside;
 }
 
-/// Sums the weighted flux of photons that arrive on one side of discs, block by block.
+/// Sums the weighted flux of the photons that arrive on one side of a disc, block by
+/// block.
 template <std::floating_point T, typename K>
 class DiscFluxT {
 public:
@@ -120,7 +120,7 @@ public:
         }
         if (++parts_ == 16) add_part();
     }
-    /// The sum of weight times flux; W.
+    /// The sum of weight times flux, in W.
     RgbT<double> sum() noexcept {
         if (parts_ > 0) add_part();
         return sum_;
@@ -139,7 +139,7 @@ private:
         part_ = {};
         parts_ = 0;
     }
-    // Adds a single photon of a block, for blocks with one or two.
+    // Adds one photon of a block, for blocks with one or two photons in the disc.
     void add_one(const FoundBlockT<T>& block, const RecordBlockT<T>& record,
                  int lane) noexcept {
         const auto i = static_cast<std::size_t>(lane);
@@ -165,8 +165,8 @@ private:
             lanes_in_disc(block.points, record, disc_, block.found);
         const Vec3T<T> d = disc_.from;
         const T per_radius2 = per_radius2_;
-        // Branch-free, so that it vectorises. Photons outside the disc may give
-        // infinity or NaN, which becomes 1.
+        // There are no branches, so that the loop vectorises. For a photon outside the
+        // disc, infinity or NaN becomes 1.
         LanesT<T> shares, lit;
         for_lanes([&](int i) {
             const T share = block.distance2.lane[i] * per_radius2;
@@ -191,17 +191,19 @@ private:
     std::span<const RecordBlockT<T>> records_;
     const FluxDiscT<T, K>& disc_;
     T per_radius2_;
-    // The sum over some blocks: more terms would exceed the precision of float.
+    // The sum over at most 16 blocks. More terms would exceed the precision of float.
     Lanes3T<T> part_{};
     RgbT<double> sum_{0};
     std::int32_t count_[lane_count] = {};
     int parts_ = 0;
 };
 
-/// Sums the weighted flux of photons that arrive on one side of a disc. It finds the
-/// same photons as the plain loop, with the same weights within the rounding of T.
-/// \param gathered  Counts the photons in the disc, on either side.
-/// \return The sum of weight times flux; W.
+/// Sums the weighted flux of the photons that arrive on one side of a disc.
+/// \param tree      The positions of the photons.
+/// \param records   The other data of the photons.
+/// \param gathered  A counter. The number of photons in the disc, on both sides, is
+///                  added to it.
+/// \return The sum of weight times flux, in W.
 template <std::floating_point T, typename K>
 [[nodiscard]] LJUS_CORE_CLONES RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/detail/photon_records.hpp
-/// \brief The data of a photon map besides the positions, eight photons side by side.
+/// \brief The data of the photons of a map, except for their positions, in blocks of
+/// eight photons.
 
 #include <algorithm>
 #include <bit>
@@ -18,30 +19,31 @@
 
 namespace ljus::detail {
 
-/// A photon's data besides its position.
+/// The data of a photon, except for its position.
 template <std::floating_point T>
 struct PhotonRecordT {
     Vec3T<T> direction{T(0)};             ///< Unit direction of travel.
     RgbT<T> flux{T(0)};                   ///< W.
-    std::uint16_t light = 0;              ///< Index of its light.
-    PhotonKind kind = PhotonKind::direct; ///< Its path so far.
+    std::uint16_t light = 0;              ///< Index of the light.
+    PhotonKind kind = PhotonKind::direct; ///< The kind.
     SmallNormal normal{0};                ///< Normal of the surface.
 };
 
-/// Eight records, by field: 256 bytes in float, which an estimate reads at once.
+/// Eight records. Each field has the values of all eight photons. A block takes 256
+/// bytes in float.
 template <std::floating_point T>
 struct RecordBlockT {
     Lanes3T<T> direction;            ///< Unit directions of travel.
     Lanes3T<T> flux;                 ///< W.
-    std::uint16_t light[lane_count]; ///< Indices of their lights.
-    std::uint32_t code[lane_count];  ///< Their kinds and normals; see RecordCode.
-    std::uint32_t unused[4]; ///< 0: a file has no bytes that nobody has written.
+    std::uint16_t light[lane_count]; ///< Indices of the lights.
+    std::uint32_t code[lane_count];  ///< Kinds and normals; see RecordCode.
+    std::uint32_t unused[4];         ///< 0, so that saved maps have defined bytes.
 };
 
-// A photon's kind and its normal in 32 bits. One instruction shifts eight numbers by
-// the same count, so that lanes can extract the fields.
+// The kind of a photon and its normal, in 32 bits. A field has the same position in all
+// eight numbers of a block, so that one instruction can extract the field from all.
 struct RecordCode {
-    // The bits of one_kind() lie above the three bytes of the normal.
+    // The bits of one_kind() follow the three bytes of the normal.
     static constexpr int kind_shift = 24;
 
     [[nodiscard]] static std::uint32_t of(PhotonKind kind, SmallNormal n) noexcept {
@@ -54,7 +56,7 @@ struct RecordCode {
     [[nodiscard]] static PhotonKind kind(std::uint32_t code) noexcept {
         return static_cast<PhotonKind>(std::countr_zero(code >> kind_shift));
     }
-    // A coordinate of the normal: shifted up, then down with its sign.
+    // A coordinate of the normal. The second shift restores the sign.
     template <int axis>
     [[nodiscard]] static constexpr std::int32_t normal(std::uint32_t code) noexcept {
         return static_cast<std::int32_t>(code << (24 - 8 * axis)) >> 24;
@@ -64,20 +66,23 @@ struct RecordCode {
     }
 };
 
-/// Records in the tree's order, eight side by side; a list of PhotonRecordT to readers.
+/// Records in the tree's order, in blocks of eight. To a reader they are a list of
+/// PhotonRecordT.
 template <std::floating_point T>
 class PhotonRecordsT {
 public:
     PhotonRecordsT() = default;
 
     /// Takes records.
-    /// \param blocks  All of them, in blocks of eight; the last one is padded.
+    /// \param blocks  All records, in blocks of eight. The last block is padded with 0.
+    /// \param count   The number of records.
     PhotonRecordsT(StoredArray<RecordBlockT<T>> blocks, std::size_t count) noexcept
         : blocks_(std::move(blocks)), size_(count) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-    /// The record at an index in the tree's order, below size().
+    /// One record.
+    /// \param index  In the tree's order, below size().
     [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
         const RecordBlockT<T>& block = blocks_[index / 8];
         const std::size_t i = index % 8;
@@ -91,7 +96,7 @@ public:
     [[nodiscard]] std::span<const RecordBlockT<T>> blocks() const noexcept {
         return blocks_.span();
     }
-    /// The same, with the memory that they are in.
+    /// The blocks and the memory in which they are stored.
     [[nodiscard]] const StoredArray<RecordBlockT<T>>& stored() const noexcept {
         return blocks_;
     }
@@ -101,7 +106,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Records that are added one by one, and then sorted.
+/// Receives records one by one, and then sorts them.
 template <std::floating_point T>
 class RecordSorterT {
 public:
@@ -111,8 +116,9 @@ public:
             {photon.direction, photon.flux, photon.light, photon.kind, photon.normal});
     }
 
-    /// Sorts the records in place, and makes the blocks; none are left here.
-    /// \param order    order[i] is the index of the record that becomes the i-th.
+    /// Sorts the records in place, makes blocks of them and returns these. The sorter
+    /// is then empty.
+    /// \param order  order[i] is the index of the record that becomes record i.
     /// \cost O(n), and 4 bytes per record.
     [[nodiscard]] PhotonRecordsT<T> sorted(std::span<const std::uint32_t> order,
                                            int threads) {
@@ -125,10 +131,10 @@ public:
             put(j, record);
             std::swap(to[i], to[j]);
         };
-        // First into groups that fit into a cache, then within each: records that move
-        // straight to their places would miss the cache each time.
+        // Records are first moved into groups that fit into a cache, and then sorted
+        // within each group. This causes fewer cache misses.
         constexpr std::size_t group = 4096;
-        GrowingArray<std::size_t> next; // of each group: its first unsettled place
+        GrowingArray<std::size_t> next; // the first unsettled place of each group
         for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
         for (std::size_t g = 0; g < next.size(); ++g)
             for (const std::size_t end = std::min((g + 1) * group, size_);

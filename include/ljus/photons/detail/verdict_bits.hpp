@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/photons/detail/verdict_bits.hpp
-/// \brief Computes the bits of a verdict grid from photons. Its cells are in bricks of
-/// 4 x 4 x 4; only bricks with photons exist.
+/// \brief Computes the bits of a verdict grid from photons. A brick is a block of 4 x 4
+/// x 4 cells of the grid. Only bricks with photons are stored.
 
 #include <algorithm>
 #include <array>
@@ -18,12 +18,12 @@ namespace ljus::detail {
 
 /// A cell of the grid, with a facing of a surface.
 struct VerdictCell {
-    std::int32_t x = 0;   ///< Along the first axis; at least 0.
-    std::int32_t y = 0;   ///< Along the second.
-    std::int32_t z = 0;   ///< Along the third.
-    std::int32_t way = 0; ///< Facing of the surface, 0 to 5.
+    std::int32_t x = 0;   ///< Number of the cell along the x axis; at least 0.
+    std::int32_t y = 0;   ///< Number of the cell along the y axis; at least 0.
+    std::int32_t z = 0;   ///< Number of the cell along the z axis; at least 0.
+    std::int32_t way = 0; ///< Facing of the surface, 0 to 5; see facing().
 
-    /// The index in its brick, 0 to 63.
+    /// The index of the cell in its brick, 0 to 63.
     [[nodiscard]] constexpr std::uint32_t in_brick() const noexcept {
         return static_cast<std::uint32_t>((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     }
@@ -31,7 +31,8 @@ struct VerdictCell {
 
 inline constexpr std::int32_t most_cells = 1 << 20;
 
-/// The key of a cell's brick, never 0: 18 bits per coordinate, and the facing.
+/// The key of a cell's brick. It consists of 18 bits per coordinate and of the facing
+/// plus 1, and is never 0.
 [[nodiscard]] constexpr std::uint64_t brick_key(const VerdictCell& cell) noexcept {
     return std::uint64_t(cell.x >> 2) | std::uint64_t(cell.y >> 2) << 18 |
            std::uint64_t(cell.z >> 2) << 36 | std::uint64_t(cell.way + 1) << 54;
@@ -47,10 +48,11 @@ inline constexpr std::int32_t most_cells = 1 << 20;
 /// The geometry of a grid's cells.
 template <std::floating_point T>
 struct CellsT {
-    Vec3T<T> corner{T(0)}; ///< Origin of cell (0, 0, 0).
+    Vec3T<T> corner{T(0)}; ///< Corner of cell (0, 0, 0) with the smallest coordinates.
     T length = T(0);       ///< Length of a cell, in scene units.
 
-    /// The cell of a point; nothing outside the grid.
+    /// The cell that contains a point; nothing outside the grid.
+    /// \param way  Facing of the surface.
     [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
                                                      int way) const noexcept {
         const Vec3T<T> c = (point - corner) * (T(1) / length);
@@ -63,10 +65,11 @@ struct CellsT {
     }
 };
 
-/// Bricks by key: a hash table with open addressing, at most half full.
+/// The indices of bricks by their keys: a hash table with open addressing that is at
+/// most half full.
 class BrickTable {
 public:
-    /// What find() returns for a missing brick.
+    /// The result of find() for a missing brick.
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     [[nodiscard]] std::uint32_t size() const noexcept {
@@ -88,7 +91,7 @@ public:
         }
     }
 
-    /// The index of a brick; inserts it if it is new.
+    /// Inserts a brick if it is new, and returns its index.
     std::uint32_t insert(std::uint64_t key) {
         if (2 * (keys_.size() + 1) > entries_.size()) grow();
         std::size_t i = start(key);
@@ -103,7 +106,7 @@ public:
 
 private:
     struct Entry {
-        std::uint64_t key = 0; // 0: free
+        std::uint64_t key = 0; // 0: the entry is free
         std::uint32_t brick = none;
     };
 
@@ -133,8 +136,9 @@ struct VerdictBitsT {
     CellsT<T> cells{};      ///< Geometry of the cells.
     std::size_t lights = 0; ///< Number of lights.
     BrickTable table{};     ///< The existing bricks.
-    /// For each brick and each light: 64 bits for lit cells, then 64 for cells in
-    /// shadow; finally 64 bits for cells with an indirect photon near.
+    /// For each brick, first two elements per light: a bit for each lit cell, and a bit
+    /// for each cell in shadow. Then one element: a bit for each cell with an indirect
+    /// photon near.
     std::vector<std::uint64_t> bits{};
 
     /// Number of elements of `bits` per brick.
@@ -143,14 +147,15 @@ struct VerdictBitsT {
     }
 };
 
-/// The facing of the side on which a photon arrives.
+/// The facing of the side of the surface on which a photon arrives.
 template <std::floating_point T>
 [[nodiscard]] int facing(const PhotonT<T>& photon) noexcept {
     return facing(photon.normal,
                   photon_side(photon.direction, Vec3T<T>(photon.normal)));
 }
 
-/// Whether a photon counts: its surface and its light are known.
+/// Whether a photon counts for the grid. Its surface and its light must be known, and
+/// the settings must use its kind.
 template <std::floating_point T>
 [[nodiscard]] bool is_witness(const PhotonT<T>& photon, std::size_t lights,
                               const SkipSettings& skip) noexcept {
@@ -159,9 +164,10 @@ template <std::floating_point T>
     return photon.kind != PhotonKind::caustic && skip.rule != SkipRule::none;
 }
 
-/// The length of the smallest cells: with it, the neighbourhood of a cell contains on
-/// average the needed number of photons of a light. A coarse grid measures the area on
-/// which the photons lie.
+/// The length of the smallest cells. It is skip.radius or, if this is 0, chosen from
+/// the photons: on average, a cell and its neighbours then contain the number of
+/// photons of a light that the rule needs, but at least 20.
+/// \param box  The bounding box of the photons.
 /// \return In scene units; 0 if all photons lie at one point.
 template <std::floating_point T>
 [[nodiscard]] T cell_length(const std::vector<PhotonT<T>>& photons, const BoxT<T>& box,
@@ -171,7 +177,7 @@ template <std::floating_point T>
     const T least = most / T(most_cells / 2);
     if (skip.radius > 0) return std::max(T(skip.radius), least);
     const CellsT<T> coarse{box.low - T(4.5) * most / T(32), most / T(32)};
-    BrickTable seen; // one brick per cell
+    BrickTable seen; // one brick per coarse cell, to measure the area with photons
     double witnesses = 0;
     for (const PhotonT<T>& photon : photons) {
         if (!is_witness(photon, lights, skip)) continue;
@@ -187,14 +193,16 @@ template <std::floating_point T>
     return std::max(T(length), least);
 }
 
-/// A counted photon: its cell, and whether it is a shadow photon.
+/// A counted photon.
 struct Witness {
-    std::uint32_t where = 0; ///< 64 times its brick, plus its cell.
-    bool shadow = false;     ///< False: it carries light.
+    std::uint32_t where = 0; ///< 64 times its brick's index plus its cell's index.
+    bool shadow = false;     ///< Whether it is a shadow photon.
 };
 
-/// Finds the cells of photons, and inserts their bricks.
-/// \return The counted photons by light; the last list has the indirect photons.
+/// Finds the cells of photons, and inserts their bricks into the table of a grid.
+/// \return For each light a list of direct and shadow photons, and one more list with
+///         the indirect photons. For SkipRule::report the first list has the direct and
+///         shadow photons of all lights.
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::vector<Witness>>
 find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
@@ -205,8 +213,8 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
         const auto at = grid.cells.cell_of(photon.position, facing(photon));
         if (!at) continue;
         const bool indirect = photon.kind == PhotonKind::indirect;
-        // An indirect photon inserts all bricks in its neighbourhood: a missing brick
-        // means that it is dark.
+        // An indirect photon inserts all bricks in its neighbourhood, because in a
+        // missing brick no indirect photon is near.
         for (int corner = 0; indirect && corner < 8; ++corner)
             (void)grid.table.insert(
                 brick_key({at->x + (corner & 1) * 2 - 1, at->y + (corner & 2) - 1,
@@ -220,21 +228,25 @@ find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
     return found;
 }
 
-/// Limit of bricks in a grid; each takes 512 bytes during its construction.
+/// The largest number of bricks in a grid. Each takes 512 bytes during the
+/// construction.
 inline constexpr std::uint32_t most_bricks = 1 << 21;
 
-/// Numbers of photons in a cell: direct in the lower 32 bits, shadow in the upper 32.
+/// The numbers of photons in a cell: direct photons in the lower 32 bits, shadow
+/// photons in the upper 32 bits.
 using PackedCounts = std::uint64_t;
 
-/// The counts of a brick and its surroundings: 6 x 6 x 6 cells, x first.
+/// The counts of the cells of a brick and of the cells around it: 6 x 6 x 6 cells. The
+/// index grows first along x.
 using CountsAround = std::array<PackedCounts, 216>;
 
-/// Collects the counts of a brick and its surroundings.
-/// \param counts  64 per brick.
+/// Collects the counts of the cells of a brick and of the cells around it.
+/// \param counts  The counts of all cells, 64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
               const std::vector<PackedCounts>& counts) {
-    // Which of six layers along an axis come from the brick before, at, or after.
+    // Of the six layers of cells along an axis, the first comes from the brick before,
+    // four from the brick itself, and the last from the brick after.
     constexpr std::array<int, 4> layer{0, 1, 5, 6};
     CountsAround around{};
     const VerdictCell first = first_cell(table.keys()[brick]);
@@ -256,17 +268,19 @@ counts_around(const BrickTable& table, std::uint32_t brick,
     return around;
 }
 
-/// Sums each cell of a brick with its 26 neighbours, axis by axis.
-/// \param sums  What counts_around() returned. Afterwards the sum of the cell (x, y,
-///              z), each from 0 to 3, is at x + 6 y + 36 z.
+/// Adds to the counts of each cell of a brick those of its 26 neighbours.
+/// \param sums  The result of counts_around(). Receives the sums: that of the cell
+///              (x, y, z) of the brick is at x + 6 y + 36 z.
 constexpr void add_neighbors(CountsAround& sums) noexcept {
     for (const std::size_t step : {1u, 6u, 36u})
         for (std::size_t i = 0; i + 2 * step < sums.size(); ++i)
             sums[i] += sums[i + step] + sums[i + 2 * step];
 }
 
-/// Converts sums into bits.
-/// \return A bit for each lit cell, and one for each cell in shadow.
+/// Converts the sums of a brick into bits.
+/// \param sums    The result of add_neighbors().
+/// \param needed  The result of photons_needed().
+/// \return Two elements: a bit for each lit cell, and a bit for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
 judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexcept {
     std::array<std::uint64_t, 2> bits{};
@@ -282,7 +296,7 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
 }
 
 /// Computes the bits of all bricks.
-/// \throws std::invalid_argument  if there would be more than most_bricks.
+/// \throws std::invalid_argument  if there would be more than most_bricks bricks.
 template <std::floating_point T>
 [[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
                                         const CellsT<T>& cells, std::size_t lights,
@@ -297,7 +311,7 @@ template <std::floating_point T>
     std::vector<PackedCounts> counts(64 * std::size_t(bricks));
     for (std::size_t list = 0; list <= lights; ++list) {
         if (found[list].empty()) continue;
-        const bool indirect = list == lights; // one photon is enough
+        const bool indirect = list == lights; // for these one photon is enough
         const SkipRule rule = indirect ? SkipRule::any : skip.rule;
         const std::uint32_t needed = indirect ? 1 : photons_needed(skip);
         for (const Witness& one : found[list])
