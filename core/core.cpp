@@ -1,14 +1,16 @@
-// The library ljus::core: instantiates the templates listed in ljus/core.hpp. Without CMake:
+// The library ljus::core: instantiates the templates listed in ljus/core.hpp. To
+// compile it without CMake:
 //
 //     g++ -std=c++20 -O3 -ffp-contract=off -fopenmp -Iinclude -c core/core.cpp
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -DLJUS_CORE app.cpp core.o
-#define LJUS_CORE_EXTERN // neither extern nor inline: defined here
+#define LJUS_CORE_EXTERN // the templates are defined here
 #define LJUS_CORE_INLINE
 
-// The searches are compiled for SSE2, AVX2 and AVX-512, by compilers that can do this for
-// templates. A sanitizer would be called before it is ready, when one of them is chosen.
-// Without -ffp-contract=off, the last two round a product and a sum once instead of twice,
-// and results depend on the processor.
+// Compilers that can do so for templates compile the searches for SSE2, AVX2 and
+// AVX-512. With a sanitizer they are not, because the choice at run time is made before
+// the sanitizer is ready. Without -ffp-contract=off the results depend on the
+// processor: the AVX2 and AVX-512 versions round a product and a sum once instead of
+// twice.
 #include <cstddef> // says which C library it is
 #if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) &&                      \
     defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&     \
