@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
 
         for (int depth = 0; depth <= 5; ++depth) {
             // The sky is visible, but no shadow ray is sent to it. Constant ambient
-            // light, which no ball shades, replaces its light.
+            // light replaces the light of the sky; no ball shades it.
             const WhittedTracer tracer(
                 world, {.max_depth = depth, .lamps = false, .ambient = sky});
             const std::string name = "whitted-depth-" + std::to_string(depth);

@@ -12,7 +12,8 @@
 
 using namespace ljus;
 
-/// Renders two balls, half of the photons to each, and by the area of their caustics.
+/// Renders two balls: with half of the photons for each, and with photons in proportion
+/// to the area of their caustics.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 26: a budget for the photons of caustics.");

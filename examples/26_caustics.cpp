@@ -1,7 +1,7 @@
 // figures: fig-8 fig-11 table-2
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300
 /// \file 26_caustics.cpp
-/// \brief Figures 8 and 11 and table 2: caustics, by the number of their photons.
+/// \brief Figures 8 and 11 and table 2: caustics with different numbers of photons.
 
 #include <algorithm>
 #include <string>
@@ -20,7 +20,7 @@ namespace {
 
 using GlassRoom = decltype(four_glass_room());
 
-/// The caustic photons as dots.
+/// Draws the caustic photons as dots.
 void figure_8(const GlassRoom& room, const examples::Options& options) {
     const auto traced = trace_photons(room.world, MapType::caustics,
                                       {.photons = 20000, .seed = options.seed});
@@ -45,8 +45,8 @@ Image in_a_row(const std::vector<Image>& pictures) {
     return all;
 }
 
-/// Pictures by the report's settings, with more and more caustic photons, and their
-/// cost in processor seconds.
+/// Renders pictures by the report's settings, with more and more caustic photons, and
+/// measures their cost in processor seconds.
 void figure_11(const GlassRoom& room, long long most,
                const examples::Options& options) {
     struct Column {

@@ -1,7 +1,7 @@
 // needs: mpi
 /// \file 34_many_machines.cpp
-/// \brief Chapter 34: both passes on many machines, with Open MPI; byte for byte the
-/// picture of one machine.
+/// \brief Chapter 34: runs both passes on many machines, with Open MPI. The picture is
+/// byte for byte that of one machine.
 ///
 ///     mpirun -n 8 34_many_machines scene.json --out folder
 
@@ -27,7 +27,7 @@ using examples::Rank;
 
 namespace {
 
-/// The photons of the caustics map: this rank traces some, and receives all.
+/// The photons of the caustics map. This rank traces some of them, and receives all.
 // [photons]
 template <AnyWorld W>
 std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
@@ -51,7 +51,8 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
 }
 // [photons]
 
-/// The strips of rows that a rank renders, dealt out in turn to share the slow regions.
+/// The strips of rows that a rank renders. Strips are dealt to the ranks in turn, so
+/// that all of them share the slow regions.
 std::vector<RowRange> strips_of(const Rank& rank, int height) {
     constexpr int strip = 8; // rows
     std::vector<RowRange> strips;

@@ -28,7 +28,7 @@ PhotonMappingSettings settings_with(int depth, std::uint64_t seed, int threads) 
     return settings;
 }
 
-/// Pictures of the reference's size, each with photons of its own.
+/// Pictures of the size of the reference, each with its own photons.
 template <typename Room>
 std::vector<Image> runs_to_depth(const Room& room, int depth,
                                  const examples::Oracle& oracle,

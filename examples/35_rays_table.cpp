@@ -41,7 +41,7 @@ auto mappers_of(const World& world, bool fixed_depth,
 
 /// The error of pictures with a number of rays.
 struct Errors {
-    double pixels = 0; ///< relMSE.
+    double pixels = 0; ///< relMSE of pixels.
     double blocks = 0; ///< relMSE of the means of 10 x 10 pixels.
     double flip = 0;   ///< FLIP of the first seed.
 };

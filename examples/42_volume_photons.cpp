@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 18 --rays 1
 /// \file 42_volume_photons.cpp
-/// \brief A ball of glass throws a shaft of light into fog; and what the number of
-/// photons in a ball changes.
+/// \brief Renders a ball of glass that throws a shaft of light into fog, with different
+/// numbers of photons per estimate.
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/render_settings.hpp
-/// \brief Every setting of the program `render`, in one table: its option, the values
-/// that it takes, its line of --help and its name in the file beside the picture.
+/// \brief Every setting of the program `render`, in one table: its option, its allowed
+/// values, its line of --help and its name in the JSON file beside the picture.
 
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,7 @@
 
 namespace examples {
 
-// Groups of settings, as --help has them.
+// The groups of settings in --help.
 inline const std::vector<std::string> common_groups{"Picture", "Renderer"};
 inline const std::vector<std::string> photon_groups{
     "Photon mapping", "Photons", "Estimates from photons", "Gathering and cache",
@@ -38,7 +38,7 @@ inline const std::string pass_group = "Passes: photon maps that converge";
 /// The values of --renderer. The last three show the first hit of each ray.
 enum class RendererName { photon, path, normals, albedo, depth };
 
-/// What a renderer shows of the first hit; nothing if it computes light.
+/// The quantity of the first hit that a renderer shows; nothing if it computes light.
 [[nodiscard]] constexpr std::optional<ljus::FirstHit>
 first_hit_of(RendererName renderer) noexcept {
     if (renderer == RendererName::normals) return ljus::FirstHit::normals;
@@ -47,43 +47,43 @@ first_hit_of(RendererName renderer) noexcept {
     return std::nullopt;
 }
 
-/// All settings, as the user gave them or as chosen for the user.
+/// All settings, as given by the user or chosen by the program.
 struct RenderRequest {
-    std::string scene{};                          ///< The scene file.
-    std::vector<std::string> reads{};             ///< It and all files that it names.
-    std::uint64_t scene_hash = 0;                 ///< Of their bytes as they were read.
-    std::string file{};                           ///< The file of the picture or slice.
+    std::string scene{};              ///< The scene file.
+    std::vector<std::string> reads{}; ///< The scene file and all files that it names.
+    std::uint64_t scene_hash = 0;     ///< Hash of the bytes of these files.
+    std::string file{};               ///< The file for the picture or slice.
     RendererName renderer = RendererName::photon; ///< What a pixel shows.
     bool in_double = false;                       ///< Whether to compute in double.
-    std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
+    std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.75;           ///< Deviation at which they get all of them.
-    double exposure = 0;                  ///< Exposure of PNG files, in stops.
+    int more_rays = 0;                    ///< Most further rays of a pixel.
+    double disagreement = 0.75; ///< Deviation at which a pixel gets all of them.
+    double exposure = 0;        ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
-    /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
+    /// MIS weights of shadow rays and paths in a path tracer; none: no shadow rays.
     std::optional<ljus::MisHeuristic> path_lights = ljus::MisHeuristic::balance;
     double photon_memory = 4;      ///< Limit for each photon pass, in GB.
     PassOptions passes{};          ///< Progressive photon maps.
-    Promise promise{};             ///< Seconds or an error.
+    Promise promise{};             ///< A time or an error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
-    std::string remarks{};         ///< Remarks on the photon passes, one a line.
-    std::string slice{};           ///< "3/16", or nothing.
-    SliceNumber part{};            ///< The same as a number.
-    std::string region{};          ///< "40,30,64,48", or nothing.
-    std::string layers{};          ///< "normal,albedo", or nothing.
-    std::string pixel{};           ///< "120,80", or nothing.
-    std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
-    bool plan = false;             ///< Print what would run.
-    bool hooks = false;            ///< Print what the scene's types provide.
-    bool quiet = false;            ///< No progress bar and no text.
+    std::string remarks{};         ///< Remarks on the photon passes, one per line.
+    std::string slice{};           ///< Text such as "3/16", or empty.
+    SliceNumber part{};            ///< Number of the slice.
+    std::string region{};          ///< Text such as "40,30,64,48", or empty.
+    std::string layers{};          ///< Text such as "normal,albedo", or empty.
+    std::string pixel{};           ///< Text such as "120,80", or empty.
+    std::string photons{};         ///< Kind of photons to draw as dots, or empty.
+    bool plan = false;             ///< Whether to print the passes that would run.
+    bool hooks = false;            ///< Whether to print the hooks of the scene's types.
+    bool quiet = false;            ///< Whether to print no progress bar and no text.
 };
 
-/// Adds every setting: its name, the member that holds it, a line of help, and its
-/// range. The words for an enum are the names of its enumerators.
+/// Adds every setting to the command line, with its name, the member that holds it, a
+/// line of help, and its range. The words for an enum are the names of its enumerators.
 /// \param line  The command line.
-/// \param r     Receives the user's values; must live as long as the line.
+/// \param r     Receives the values; must live as long as the command line.
 inline void add_settings(CommandLine& line, RenderRequest& r) {
     using namespace ljus;
     constexpr int million = 1'000'000;
@@ -242,14 +242,16 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              {"direct", "indirect", "shadow", "caustic", "all"});
 }
 
-/// Chooses the settings that the user did not give: from the scene, from the preset,
-/// and for passes.
+/// Chooses the settings that the user did not give, by the scene, by the preset, and
+/// for pictures in passes.
 /// \param line    The command line, parsed.
-/// \param r       What the user asks for.
-/// \param width   Of the scene's picture, in pixels.
-/// \param height  Of the scene's picture, in pixels.
-/// \param fog     Whether the scene has fog, in which no irradiance is cached.
-/// \throws std::invalid_argument  for a picture that is too large.
+/// \param r       The request of the user.
+/// \param width   Width in the scene file, in pixels.
+/// \param height  Height in the scene file, in pixels.
+/// \param fog     Whether the scene has fog, which the irradiance cache does not
+///                support.
+/// \throws std::invalid_argument  if the picture is too large, or options do not fit
+///         together.
 inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int height,
                             bool fog = false) {
     Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
@@ -259,7 +261,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
         options = line.fill({width, height, rays.first});
         r.more_rays = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        // Keep the default shadow rays, not the preset's.
+        // The default number of shadow rays is kept, not that of the preset.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
         if (fog && r.photon.indirect == ljus::IndirectLight::cache)
             r.photon.indirect = ljus::IndirectLight::photons;
@@ -297,7 +299,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
 
 /// The final settings of a picture, for the file beside it.
 /// \param line  The command line, parsed.
-/// \param r     What the user asked for, and what was chosen.
+/// \param r     The request of the user, with all settings chosen.
 [[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,
                                                     const RenderRequest& r) {
     std::vector<std::string> groups = common_groups;
@@ -322,9 +324,10 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     return json;
 }
 
-/// What the passes of a picture are of; passes that were made by the same text go on.
+/// The text that identifies the picture of some passes. A checkpoint with the same text
+/// can be resumed.
 /// \param line  The command line, parsed.
-/// \param r     What the user asked for, with all settings, and the scene's hash.
+/// \param r     The request of the user, with all settings and the hash of the scene.
 [[nodiscard]] inline std::string text_of_passes(const CommandLine& line,
                                                 const RenderRequest& r) {
     std::vector<std::pair<std::string, std::string>> settings;

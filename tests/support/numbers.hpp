@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/numbers.hpp
-/// \brief Random numbers for tests: the same everywhere, and independent of the
-/// library's.
+/// \brief Random numbers for tests. They are the same on every machine and independent
+/// of the library.
 
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace ljus_test {
 
-/// Knuth's linear congruential generator: its upper bits are good enough for tests.
+/// Knuth's linear congruential generator, whose upper bits are random enough for tests.
 struct Numbers {
     std::uint64_t state = 1;
     double next() {
