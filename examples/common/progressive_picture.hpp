@@ -35,14 +35,14 @@ struct PassOptions {
 /// \param line  The command line.
 /// \param how   Receives the values; must live until the line is parsed.
 inline void add_pass_options(CommandLine& line, PassOptions& how) {
-    line.add("--passes", how.passes, "How many, each with photons of its own", 1,
+    line.add("--passes", how.passes, "Number of passes, each with its own photons", 1,
              1'000'000'000);
-    line.add("--alpha", how.alpha, "How slowly their radius shrinks; 1: not at all",
-             1e-3, 1);
+    line.add("--alpha", how.alpha, "How slowly the radius shrinks; 1: not at all", 1e-3,
+             1);
     line.add("--checkpoint FILE", how.checkpoint, "File to resume the passes from");
     line.add("--resume", how.resume, "Continue from the checkpoint");
     line.add("--preview FILE", how.preview, "PNG file of the passes so far");
-    line.add("--every", how.every, "Seconds between such files; 0: after each pass", 0,
+    line.add("--every", how.every, "Seconds between saved files; 0: after each pass", 0,
              1e6);
 }
 
