@@ -156,7 +156,7 @@ inline bool are_settings(const std::string& text) {
     const bool numbered = part.slice.number >= 1 && part.slice.count <= max_slices &&
                           part.slice.number <= part.slice.count;
     if (!sized || !numbered || (channel != 4 && channel != 8) || letters > file.left())
-        file.refuse("no slice has its numbers");
+        file.refuse("its numbers are not those of a slice");
     part.width = int(width);
     part.height = int(height);
     part.wide = channel == 8;
@@ -164,13 +164,13 @@ inline bool are_settings(const std::string& text) {
     part.settings.assign(text, text + std::ptrdiff_t(letters));
     file.position += letters;
     if (!std::isfinite(part.exposure) || !are_settings(part.settings))
-        file.refuse("no slice has its settings");
+        file.refuse("its settings are not those of a slice");
     const ljus::RowRange rows = rows_of(part.slice, part.height);
     const std::size_t pixels =
         std::size_t(width) * static_cast<std::size_t>(rows.last - rows.first);
     if (file.left() != 3 * channel * pixels)
         file.refuse("its " + std::to_string(file.bytes.size()) +
-                    " bytes do not go with its picture's size");
+                    " bytes do not match its picture's size");
     part.pixels.resize(pixels);
     for (ljus::RgbT<double>& color : part.pixels)
         color = part.wide ? file.take_vector<ljus::RgbT<double>>()

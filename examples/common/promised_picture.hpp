@@ -354,7 +354,7 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
                                     "; the least bias of all "
                                     "settings is " +
                                     two_digits(kept.forecast().bias) +
-                                    " here, and no time takes it away.");
+                                    " here, and more time does not reduce it.");
     tell(kept);
 
     ProgressBar bar("pictures", quiet);

@@ -63,7 +63,7 @@ picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
                 return "its " + ljus::shown(std::string(line.substr(0, end))) + " is " +
                        a + ", and not " + b;
         }
-    return is == right ? "" : "its settings are others";
+    return is == right ? "" : "its settings differ";
 }
 
 /// Refuses to resume the checkpoint of another picture.

@@ -281,21 +281,21 @@ contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcep
     if (other == ContactKind::sheet)
         return "the thin surface has no effect there; move it away from the other one";
     if (met == ContactKind::lamp)
-        return other == ContactKind::lamp ? "of two lamps paths meet the brighter one, "
-                                            "but shadow rays find both; "
+        return other == ContactKind::lamp ? "paths meet only the brighter of two "
+                                            "lamps, but shadow rays find both; "
                                             "move or remove one"
-                                          : "the lamp is met there";
+                                          : "rays meet the lamp there";
     if (met == ContactKind::body)
         return contact.opposed ? "light passes from one body into the other; for air "
                                  "between them, move "
                                  "them apart"
-                               : "the body of the higher index is met there; let one "
-                                 "end before the other";
+                               : "rays meet the body of the higher index there; let "
+                                 "one end before the other";
     if (other == ContactKind::body)
-        return "light passes from the body to what is opaque; for air between them, "
-               "move them apart";
-    return contact.alike ? "of two opaque surfaces that is met whose material covers "
-                           "less of the scene"
+        return "light passes from the body to the opaque surface; for air between "
+               "them, move them apart";
+    return contact.alike ? "rays meet the opaque surface whose material covers less "
+                           "of the scene"
                          : nullptr;
 }
 
@@ -336,8 +336,8 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
              to_text(Vec3((first->box.low + first->box.high) / 2.0)), ": ", rule}));
     if (!contacts.complete)
         remarks.push_back("too many objects overlap to compare all of them: where "
-                          "surfaces lie in one place, their order may decide what is "
-                          "met");
+                          "surfaces lie in one place, their order may decide which one "
+                          "rays meet");
 }
 
 #endif
@@ -398,8 +398,8 @@ template <AnyWorld W>
                                     "and that of the higher index holds: give them "
                                     "different priorities; around "
                                   : "transparent bodies overlap, and each surface "
-                                    "counts as one between its body and air: give "
-                                    "them priorities; around ");
+                                    "is taken for a boundary between its body and air: "
+                                    "give them priorities; around ");
         }
 }
 

@@ -139,8 +139,8 @@ refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
                "its light out; let indirect light come by rays, map or photons, or "
                "remove the fog";
     if (settings.skip.rule != SkipRule::none || settings.skip.indirect_rays)
-        return "the scene has fog, whose dimming is not in photons that make rays "
-               "needless; skip no rays, or remove the fog";
+        return "the scene has fog, and photons that say which rays to skip do not know "
+               "how much it dims; skip no rays, or remove the fog";
     return {};
 }
 

@@ -170,7 +170,7 @@ starved_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons ",
                  to_text(indirect), " landed twice or more, fewer than ",
                  to_text(settings.irradiance.least),
-                 ": paths carry the light between surfaces, not these"});
+                 ": paths carry the light between surfaces instead"});
 }
 
 /// A remark about a general map whose indirect photons are few but are used.
