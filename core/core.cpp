@@ -11,7 +11,7 @@
 // the sanitizer is ready. Without -ffp-contract=off the results depend on the
 // processor: the AVX2 and AVX-512 versions round a product and a sum once instead of
 // twice.
-#include <cstddef> // says which C library it is
+#include <cstddef> // defines __GLIBC__ if glibc is used
 #if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) &&                      \
     defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&     \
     !defined(__SANITIZE_THREAD__)

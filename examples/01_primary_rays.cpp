@@ -23,7 +23,7 @@ constexpr int columns = 6, rows = 4;
 const Camera camera =
     look_at({.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
 
-/// The scene that it sees.
+/// The scene that the first camera sees.
 const Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
 const Quad ground{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
 

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
         scene.add(Sphere{.center{-1, 0.8f, 0}, .radius = 0.5f},
                   scene.add(Glass{.index = 1.05f})); // a wide, faint caustic
         scene.add(Sphere{.center{1, 0.8f, 0}, .radius = 0.5f},
-                  scene.add(Glass{.index = 1.5f})); // a small, bright one
+                  scene.add(Glass{.index = 1.5f})); // a small, bright caustic
         scene.add(PointLight{.position{0, 4, 0}, .intensity = Rgb{10}});
         const World world(std::move(scene));
         const Camera camera = look_at(

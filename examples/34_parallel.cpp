@@ -1,7 +1,8 @@
 // figures: table-1
 // smoke: --quality draft --width 8 --height 8
 /// \file 34_parallel.cpp
-/// \brief Chapter 34: the report's room, rendered by one thread and by all. Table 1.
+/// \brief Chapter 34, table 1: the report's room, rendered by one thread and by all
+/// threads.
 
 #include <algorithm>
 #include <string>

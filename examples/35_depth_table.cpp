@@ -1,7 +1,7 @@
 // figures: table-4
 // smoke: --quality draft --width 16 --height 16 --rays 1
 /// \file 35_depth_table.cpp
-/// \brief Chapter 35: the cost of deeper paths, and the light that they add. Table 4.
+/// \brief Chapter 35, table 4: the cost of deeper paths, and the light that they add.
 
 #include <algorithm>
 #include <string>

@@ -1,7 +1,7 @@
 // figures: table-3
 // smoke: --quality draft --width 8 --height 8
 /// \file 35_rays_table.cpp
-/// \brief Chapter 35: time and error with more rays per pixel. Table 3.
+/// \brief Chapter 35, table 3: time and error with more rays per pixel.
 
 #include <algorithm>
 #include <string>

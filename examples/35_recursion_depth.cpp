@@ -1,7 +1,7 @@
 // figures: fig-13
 // smoke: --quality draft --width 16 --height 16 --rays 1
 /// \file 35_recursion_depth.cpp
-/// \brief Chapter 35: one room with deeper and deeper paths, figure 13.
+/// \brief Chapter 35, figure 13: one room with deeper and deeper paths.
 
 #include <string>
 

@@ -38,7 +38,7 @@ void add_glass(Table& table, int rank) {
     add_rod(table, {{0, 0.14f, 0}, {0, 0.9f, 0}, 0.54f}, water);   // into the glass
     table.add(Sphere{{-0.2f, 0.5f, 0.15f}, 0.13f}, bubble);
     table.add(Sphere{{-0.33f, 0.8f, 0.1f}, 0.07f}, bubble);
-    table.add(Sphere{{-0.1f, 1.04f, 0.2f}, 0.1f}, bubble); // it reaches the surface
+    table.add(Sphere{{-0.1f, 1.04f, 0.2f}, 0.1f}, bubble); // reaches the water surface
 }
 // [glass of water]
 

@@ -15,7 +15,7 @@ using namespace ljus;
 using Cellar = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass>,
                      Lights<SpotLight>, Media<Fog<Box>>>;
 
-/// A spot shines on a ball of glass, in a room full of fog.
+/// A room full of fog, in which a spot light shines on a ball of glass.
 Cellar cellar() {
     Cellar scene;
     const auto wall = scene.add(Lambertian{.albedo{0.5f, 0.47f, 0.43f}});

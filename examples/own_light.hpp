@@ -33,7 +33,7 @@ inline Rgb power(const StageLamp& lamp) {
 /// The fraction of the flux that goes in a direction, per steradian.
 inline float pdf_emission(const StageLamp& lamp, const Vec3&, const Vec3& wo) {
     const float cosine = glm::dot(wo, lamp.axis);
-    if (!(cosine > 0)) return 0; // behind it, or NaN
+    if (!(cosine > 0)) return 0; // behind the lamp, or NaN
     return (lamp.exponent + 1) / two_pi * std::pow(cosine, lamp.exponent);
 }
 /// The light that arrives at a point along a shadow ray: intensity / distance^2.

@@ -13,7 +13,7 @@ namespace examples {
 /// A stop watch that starts when it is made.
 class StopWatch {
 public:
-    /// Wall-clock seconds since it was made or last restarted.
+    /// Wall-clock seconds since the stop watch was made or last restarted.
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(Clock::now() - start_).count();
     }

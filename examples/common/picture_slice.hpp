@@ -69,7 +69,7 @@ inline constexpr int max_slices = 65536;
 
 /// Rows of a picture, and everything that identifies the picture.
 struct PictureSlice {
-    SliceNumber slice{};    ///< Which slice.
+    SliceNumber slice{};    ///< Number of the slice.
     int width = 0;          ///< Width of the whole picture.
     int height = 0;         ///< Height of the whole picture.
     bool wide = false;      ///< Whether it was rendered in double.

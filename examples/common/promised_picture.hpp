@@ -235,7 +235,7 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
                                    : std::min(choose(found, promise).seconds / 8, 10.0);
     };
     for (std::size_t i = 0; i < run.trials.size(); ++i) {
-        const bool judge = i == run.large.size(); // as long as all others together
+        const bool judge = i == run.large.size(); // it takes as long as all others
         const double limit = judge                 ? patience(forecasts(run, false)) / 2
                              : promise.seconds > 0 ? promise.seconds / 8
                                                    : std::numeric_limits<double>::max();

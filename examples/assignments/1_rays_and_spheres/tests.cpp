@@ -1,4 +1,4 @@
-// Assignment 1: a test is a sentence that must hold. Points stand in its name.
+// Assignment 1: each test is a sentence that must hold. Its name states its points.
 #include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN

@@ -1,4 +1,4 @@
-// Assignment 2: a test is a sentence that must hold. Points stand in its name. All
+// Assignment 2: each test is a sentence that must hold. Its name states its points. All
 // comparisons are with closed forms, without random numbers.
 #include <answer.hpp> // first: it must include what it needs
 

@@ -1,4 +1,4 @@
-// Assignment 4: a test is a sentence that must hold. Points stand in its name. Means
+// Assignment 4: each test is a sentence that must hold. Its name states its points. Means
 // are compared with closed forms and with quadrature within five standard errors: a
 // right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
 // right estimator will do.
@@ -101,7 +101,7 @@ TEST_CASE("4.1 (2 points) points are chosen on lamps only and their density is r
     }
     CHECK(area.agrees(8, 1e-4));
     CHECK(left.agrees(2, 1e-4));  // half of the first lamp
-    CHECK(front.agrees(2, 1e-4)); // and another half of it
+    CHECK(front.agrees(2, 1e-4)); // another half of that lamp
     room.objects.resize(1);
     CHECK_FALSE(choose_lamp_point(room, stream));
 }
@@ -138,7 +138,7 @@ TEST_CASE("4.4 (2 points) what is between casts a shadow and a lamp has one side
     const double exact = 0.5 / pi * irradiance(0, 2, 3);
     CHECK(shadow_rays(room, 40000).agrees(exact, 1e-5));
     room.objects.push_back({ljus::Quad{{-1, -1, 0.7f}, {2, 0, 0}, {0, 2, 0}},
-                            {.color = Rgb{0}, .emission = Rgb{9}}}); // it shines up
+                            {.color = Rgb{0}, .emission = Rgb{9}}}); // shines upwards
     CHECK(shadow_rays(room, 2000).mean() == 0);
     CHECK(shadow_rays({.objects{floor_of_half, lamp_at(0, 2, Rgb{3})}}, 99).mean() > 0);
 }

@@ -1,4 +1,4 @@
-// Assignment 7: a test is a sentence that must hold. Points stand in its name. Means
+// Assignment 7: each test is a sentence that must hold. Its name states its points. Means
 // are compared with closed forms within five standard errors: a right answer fails a
 // check once in 1.7 million seeds, and the seeds are fixed. Any right estimator will
 // do.

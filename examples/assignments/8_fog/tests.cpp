@@ -1,4 +1,4 @@
-// Assignment 8: a test is a sentence that must hold. Points stand in its name. Means
+// Assignment 8: each test is a sentence that must hold. Its name states its points. Means
 // are compared with closed forms, or with sums over a fine grid, within five standard
 // errors: a right answer fails a check once in 1.7 million seeds, and the seeds are
 // fixed. Any right estimator will do.

@@ -17,7 +17,7 @@ namespace ljus {
 
 /// The photons of one kind.
 struct PhotonCount {
-    std::uint64_t photons = 0; ///< Their number.
+    std::uint64_t photons = 0; ///< Number of photons.
     RgbT<double> flux{0}; ///< Sum of their flux, W, in double; for shadow photons the
                           ///< flux that is missing.
 };

@@ -60,10 +60,11 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 } // namespace detail
 
-/// The largest part of its light that an object loses at its edges. An estimate spreads
-/// each photon over a disc, and the flux beyond the edges of the object is lost.
-/// Objects with few sampled photons are taken together, as one. Estimates by the radius
-/// are assumed, not by the k nearest. The seed is for random places in the discs.
+/// The fraction of light that estimates lose at the edges of an object, for the object
+/// that loses most. An estimate spreads each photon over a disc, and flux beyond the
+/// edges of the object is lost. Objects with few sampled photons count together, as one
+/// object. Estimates are assumed to use all photons within the radius. The seed is for
+/// random points in the discs.
 /// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in all.
 /// \cost Five rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>

@@ -159,7 +159,7 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                            ? std::to_string(found.fog) + " medium(s) scatter light"
                            : "nothing lights the fog but shadow rays"};
     plan.shadow_photons = {"shadow photons", run.shadow_photons,
-                           run.skipped_rays ? "they show which shadow rays to skip"
+                           run.skipped_rays     ? "they show which shadow rays to skip"
                            : run.shadow_photons ? "the general map keeps them"
                                                 : "no map keeps them"};
 }

@@ -528,8 +528,8 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 ///         channel is a layer of its own. In a file of several parts, a channel without
 ///         a layer name has the name of its part. A layer has the pixels of its part's
 ///         data window.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is damaged,
-///         or has more than 2^27 pixels in all layers together.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is
+///         damaged, or has more than 2^27 pixels in all layers together.
 /// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
 template <std::floating_point T = float>
 [[nodiscard]] std::vector<LayerT<T>> load_exr_layers(const std::string& path) {

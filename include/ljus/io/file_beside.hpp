@@ -27,7 +27,7 @@
 
 #ifdef _MSC_VER
 #pragma warning(push)
-#pragma warning(disable : 4996) // std::fopen is what this header wants
+#pragma warning(disable : 4996) // this header uses std::fopen
 #endif
 
 namespace ljus {

@@ -148,10 +148,10 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 /// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
 ///         header.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is of an
-///     unsupported kind (XYZE, other primaries than those of sRGB, a gamma, another
-///     pixel order, the run-length coding from before 1991), or is shorter or longer
-///     than its header says.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
+///         an unsupported kind (XYZE, other primaries than those of sRGB, a gamma,
+///         another pixel order, the run-length coding from before 1991), or is shorter
+///         or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};

@@ -144,7 +144,7 @@ inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
 }
 
 // Decodes the bytes of a picture, and calls refuse(why) for an error. `wanted` is the
-// number of bytes per pixel. `colors` says whether they are used as sRGB colours.
+// number of bytes per pixel. `colors` says whether the bytes are used as sRGB colours.
 // `others` is explained in decode_image().
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,

@@ -245,8 +245,8 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
 }
 
 /// Adds all meshes of a file to a scene, with one material for all of them.
-/// \param scene     A scene that lists Mesh. /// \param loaded The result of
-///                  load_obj(), load_ply(), load_stl() or load_gltf().
+/// \param scene     A scene that lists Mesh.
+/// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
 /// \param material  The number that Scene::add() returned for the material.
 /// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
 template <typename Scene, std::floating_point T>

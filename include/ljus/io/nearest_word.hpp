@@ -46,7 +46,7 @@ namespace ljus {
     return last[to.size()];
 }
 
-/// The word of a list that is most like a given one.
+/// The word of a list that is most like a given word.
 /// \param word   The word of the user.
 /// \param words  The known words.
 /// \return The known word with the smallest edit distance, if at most one letter in

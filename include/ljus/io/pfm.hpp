@@ -46,8 +46,8 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
 /// Loads a PFM file in colour or grey, of either byte order.
 /// \return The image. Its values are multiplied by the absolute value of the scale in
 ///         the header; save_pfm() writes a scale of absolute value 1.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is not a PFM
-///         file, or is shorter or longer than its header says.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is not
+///         a PFM file, or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
     detail::ByteReader reader{path,

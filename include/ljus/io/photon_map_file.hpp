@@ -255,7 +255,7 @@ struct PhotonMapFileSettings {
 /// pages that it needs, and the system drops pages when memory is short. Meanwhile
 /// save_photon_map() may replace the file, but no program may write into it or shorten
 /// it.
-/// \return The map, equal to the saved one in every bit; The file stays mapped as long
+/// \return The map, equal to the saved one in every bit. The file stays mapped as long
 ///         as this map exists, or a map to which it is moved. A copy of the map is in
 ///         memory.
 /// \throws std::runtime_error  "cannot read 'a.photons': it is damaged ..."; also on a

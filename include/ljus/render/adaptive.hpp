@@ -22,8 +22,8 @@ namespace ljus {
 /// go to the pixels where they reduce the error most. The mean number of rays per pixel
 /// is at most RenderSettings::samples.
 ///
-///     // 1 ray; up to 9 more where the rays of the pixels around differ, all of them
-///     // from a relative standard deviation of 0.3 on
+///     // 1 ray per pixel, and up to 9 more if the rays of neighbouring pixels differ:
+///     // all 9 if their relative standard deviation is at least 0.3
 ///     render_adaptive(mapper, camera, {.samples = 10},
 ///                     {.first = 1, .more = 9, .disagreement = 0.3});
 ///     // up to 1000 rays per pixel on average, until the relMSE is 0.01
@@ -35,9 +35,9 @@ namespace ljus {
 struct AdaptiveSettings {
     int first = 16; ///< First rays of every pixel: at least 2, or at least 1 with
                     ///< `disagreement` and no target.
-    /// Further rays are traced in batches: the number of rays per pixel in a batch, at
-    /// least 1, or 2 with `two_stage`. With `disagreement` it is the largest such
-    /// number.
+    /// Rays per pixel in a batch, which follows the first rays: at least 1, or 2 with
+    /// `two_stage`. With `disagreement`, the largest number of rays per pixel in a
+    /// batch.
     int more = 16;
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     /// Side of a square block, in pixels. The pixels of a block share one estimate of
@@ -95,7 +95,7 @@ namespace detail {
 
 /// A square of pixels; all of them have the same number of rays.
 struct AdaptiveBlock {
-    int x = 0, y = 0;          ///< Its upper left pixel.
+    int x = 0, y = 0;          ///< Column and row of its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
     int rays = 0;              ///< Rays per pixel so far, without discarded ones.
     int batches = 0;           ///< Batches traced so far; the first rays are one.
@@ -206,8 +206,9 @@ struct RayShare {
 };
 
 /// The optimal number of rays per pixel for each block. With a target, the mean of
-/// variance / rays over all pixels reaches the target with the fewest rays. Without
-/// one, or if the limit allows no more rays, that mean is as small as the limit allows.
+/// variance / rays over all pixels reaches the target with the fewest rays. Without a
+/// target, or if the limit does not allow enough rays, that mean is as small as the
+/// limit allows.
 ///
 /// A block has w pixels, variance v and n rays per pixel. The sum of w v / n over all
 /// blocks is minimised for a given sum of w n. By Lagrange multipliers, v / n^2 is the
@@ -424,7 +425,7 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
     if (rule.disagreement == 0 || rule.target > 0 ||
         picture.samples - rule.first < rule.more)
         return all;
-    // Each thread has enough pixels that it does not wait long at the end of a band.
+    // Each thread has so many pixels that it does not wait long at the end of a band.
     const int threads = picture.threads == 0 ? max_threads() : picture.threads;
     const long long pixels = 4096LL * std::max(threads, 4);
     const long long row = static_cast<long long>(picture.width) * rule.block;
@@ -450,9 +451,10 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 ///         threads. A sample that is not finite is left out and counted.
 /// \throws std::invalid_argument  as render(), or if a setting is out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The time of the rays. The result takes 24 bytes per pixel in float. Meanwhile
-///       each pixel of the picture takes about 200 bytes more. With `disagreement`, no
-///       target and enough samples, only 4096 pixels per thread do, but at least 16384.
+/// \cost The time of the rays. The result takes 24 bytes per pixel in float. During
+///       rendering, about 200 bytes more are needed per pixel. With `disagreement`, no
+///       target and enough samples, they are needed only for 4096 pixels per thread,
+///       but at least for 16384 pixels.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -558,7 +560,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
         detail::set_pixels(result, part, sums, rule.two_stage ? rule.first : 0);
         sums.drop(blocks, columns * std::size_t(std::max(last - around - top, 0)));
     }
-    if (result.complete) // fewer rays may have been enough
+    if (result.complete) // even if fewer rays were enough
         (void)picture.progress(static_cast<long long>(allowed),
                                static_cast<long long>(allowed));
     result.estimate = error / pixels;

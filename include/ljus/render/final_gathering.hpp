@@ -17,8 +17,8 @@
 namespace ljus {
 
 /// \defgroup final_gathering Final gathering
-/// \brief The report's discussion: better use of indirect photons \cite jensen1996.
-/// Chapter: \ref ch_final_gathering.
+/// \brief Rays that use photons one bounce away \cite jensen1996 , which the report
+/// proposes in its discussion. Chapter: \ref ch_final_gathering.
 /// \{
 
 namespace detail {
@@ -31,9 +31,10 @@ template <std::floating_point T>
 }
 
 /// The radiance that some lobes of a material reflect or transmit along `wo` if the
-/// incident radiance on each side of the surface is the same in all directions. It is
-/// the albedo times E / pi, where E is the irradiance. For a Lambertian surface the
-/// result is exact; the albedo of any other surface is estimated by one sample.
+/// incident radiance on each side of the surface is the same in all directions. This
+/// radiance is the albedo times E / pi, where E is the irradiance. For a Lambertian
+/// surface the result is exact; the albedo of any other surface is estimated by one
+/// sample.
 /// \param material    The material of the surface.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
@@ -55,7 +56,7 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 
 } // namespace detail
 
-/// What gather rays look up where they end.
+/// The data that gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
     const IrradiancePointsT<T>* points;     ///< The points with known irradiance.
@@ -74,7 +75,7 @@ struct GatherLookupT {
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
 };
 
-/// What a gather ray finds.
+/// The result of a gather ray.
 template <std::floating_point T>
 struct GatherRayT {
     RgbT<T> radiance{T(0)};                          ///< W/(m^2 sr).
@@ -200,8 +201,8 @@ struct GatheredT {
 
 /// Gathers the indirect irradiance at a vertex, by stratified rays with a density
 /// proportional to the cosine. At any other diffuse lobe the rays are sampled from the
-/// lobe. The result is then the irradiance of uniform light of which the lobe would
-/// reflect as much to `wo` as of the actual light:
+/// lobe. The result is then the irradiance of a uniform light under which the lobe,
+/// seen along `wo`, would be as bright as under the actual light:
 ///
 /// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
 /// w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}, \f]

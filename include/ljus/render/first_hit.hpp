@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/render/first_hit.hpp
-/// \brief Normals, albedos and distances of what primary rays hit, as pictures.
+/// \brief Pictures of the normals, albedos or distances of the surfaces that primary
+/// rays hit.
 
 #include "ljus/path/continue_path.hpp"
 
@@ -12,7 +13,7 @@ namespace ljus {
 /// a denoiser. Chapter: \ref ch_first_picture_first_hit.
 /// \{
 
-/// What a FirstHitRenderer shows of the surface that a primary ray hits.
+/// The quantity that a FirstHitRenderer shows of the first surface on a primary ray.
 enum class FirstHit {
     normals, ///< The shading normal n on the visible side, as (n + 1)/2; no hit: 1/2.
     albedo,  ///< The directional albedo, in [0, 1]; no hit: 0.
@@ -28,12 +29,12 @@ public:
     static constexpr bool carries_fog = true; ///< Fog is ignored.
 
     /// \param world  Must outlive the renderer.
-    /// \param shown  What a picture shows.
+    /// \param shown  The quantity that a picture shows.
     FirstHitRenderer(WorldRef<W> world, FirstHit shown)
         : world_(world), shown_(shown) {}
     /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// What a picture shows.
+    /// The quantity that a picture shows.
     [[nodiscard]] FirstHit shown() const noexcept { return shown_; }
 
 private:
@@ -64,8 +65,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     });
 }
 
-/// What a primary ray hits first, as a colour.
-/// \param renderer  The world, and what to show.
+/// The first hit of a primary ray, as a colour.
+/// \param renderer  The world, and the quantity to show.
 /// \param ray       A primary ray.
 /// \param context   The random stream; logs one term.
 /// \return A colour as FirstHit describes it, which is not a radiance.

@@ -22,8 +22,8 @@ struct Gathering {
     };
 };
 
-/// What the gather rays of a mapper look up: its irradiance points, and for glossy
-/// surfaces its caustics map.
+/// The data that the gather rays of a mapper look up: its irradiance points and, for
+/// glossy surfaces, its caustics map.
 /// \param mapper  With Gathering; must outlive the result.
 template <typename Mapper>
 [[nodiscard]] GatherLookupT<typename Mapper::Scalar>

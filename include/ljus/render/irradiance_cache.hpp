@@ -22,7 +22,7 @@ namespace ljus {
 template <std::floating_point T>
 struct IrradianceCacheT {
     KdTree8T<T> tree;                  ///< The positions of the points.
-    std::vector<GatheredT<T>> records; ///< What was gathered at the points, in the
+    std::vector<GatheredT<T>> records; ///< The light gathered at the points, in the
                                        ///< tree's order.
     Counts counts{};                   ///< Cost of the gathering.
     bool complete = true; ///< False if the progress callback stopped the gathering.
@@ -108,8 +108,9 @@ namespace detail {
 template <std::floating_point T>
 struct GatheredRowT {
     std::vector<Vec3T<T>> positions;   ///< The points, in world space.
-    std::vector<GatheredT<T>> records; ///< Their gathered light, in this order.
-    Counts counts{};                   ///< What it cost.
+    std::vector<GatheredT<T>> records; ///< The light gathered at the points, in this
+                                       ///< order.
+    Counts counts{};                   ///< Cost of the gathering.
 };
 
 /// Gathers irradiance where a camera ray meets its first diffuse surface. These places

@@ -66,7 +66,7 @@ struct LayerSettings {
 /// A picture and its layers.
 template <std::floating_point T>
 struct RenderedLayersT {
-    RenderedT<T> rendered{};         ///< As render() returns it, byte for byte.
+    RenderedT<T> rendered{};         ///< The result of render(), byte for byte.
     std::vector<LayerT<T>> layers{}; ///< In the order of LayerSettings.
 };
 
@@ -96,7 +96,7 @@ namespace detail {
 /// The largest number of surfaces that a path to a normal or an albedo meets.
 inline constexpr int max_guide_depth = 16;
 
-/// What one ray adds to the layers of normals and albedos.
+/// The contribution of one ray to the layers of normals and albedos.
 template <std::floating_point T>
 struct GuideT {
     Vec3T<T> normal{T(0)};

@@ -11,7 +11,8 @@
 namespace ljus {
 
 /// \defgroup path_tracing Path tracing
-/// \brief Section 2: the rendering equation (Eq. 1), after Kajiya \cite kajiya1986.
+/// \brief Solves the rendering equation (Section 2, Eq. 1) by random paths, after
+/// Kajiya \cite kajiya1986.
 /// \{
 
 /// How paths are traced.
@@ -46,7 +47,7 @@ template <typename W>
 class PathTracer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
-    static constexpr bool carries_fog = true; ///< Its paths are scattered by fog.
+    static constexpr bool carries_fog = true; ///< Fog scatters the paths.
 
     /// \param world     Must outlive the tracer.
     /// \param settings  Depth, roulette, light sampling.
@@ -123,7 +124,8 @@ template <AnyWorld W, std::floating_point T>
     return sum;
 }
 
-/// Ends a path, or prepares it for its next ray: the limit of depth, and roulette.
+/// Decides whether a path continues, by max_depth and roulette, and counts its next
+/// ray.
 /// \param path  The path after its scattering.
 /// \return Whether the path continues.
 template <AnyWorld W, std::floating_point T, typename Context>

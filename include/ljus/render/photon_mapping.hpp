@@ -22,7 +22,7 @@
 namespace ljus {
 
 /// \defgroup photon_mapping Photon mapping
-/// \brief Section 3: the two-pass renderer. Chapter: \ref ch_two_pass.
+/// \brief The two-pass renderer of Section 3. Chapter: \ref ch_two_pass.
 ///
 /// Every light path has one owner:
 ///
@@ -40,7 +40,7 @@ namespace ljus {
 ///
 /// A glossy surface is a D, with one exception. IndirectLight::gather and cache treat a
 /// nearly_specular() surface as an S if it lies between a light and a surface with a
-/// diffuse lobe. At all other glossy surfaces their paths continue.
+/// diffuse lobe. At all other glossy surfaces camera paths continue.
 ///
 /// Photon maps are not queried for the light that rough glass scatters through itself,
 /// see scatters_through(). Paths therefore continue at rough glass, even with
@@ -64,7 +64,7 @@ struct Abilities {};
 template <typename... X>
 inline constexpr Abilities<X...> abilities{};
 
-/// What the photons left on surfaces (the report, Section 3.2.2).
+/// The maps that the photon passes have made (Section 3.2.2 of the report).
 template <std::floating_point T>
 struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
@@ -174,7 +174,7 @@ starved_remark(long long indirect, const PhotonMappingSettings& settings) {
 }
 
 /// A remark about a general map whose indirect photons are few but are used.
-/// \param indirect  Indirect photons that it kept.
+/// \param indirect  The number of its indirect photons.
 [[nodiscard, gnu::cold]] inline std::string
 blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons only ",
@@ -314,7 +314,8 @@ public:
     using Stream = typename detail::StreamAmong<X...>::Type;
     /// The batch of samples whose caustics are estimated together.
     using Batch = detail::CausticsBatch<Scalar>;
-    static constexpr bool carries_fog = true; ///< Its maps hold the light in fog.
+    static constexpr bool carries_fog = true; ///< The volume map holds the light in
+                                              ///< fog.
     /// Whether an ability is listed.
     template <typename A>
     static constexpr bool has = ((std::is_same_v<A, X> && detail::Included<X>) || ...);
@@ -482,7 +483,7 @@ private:
     WorldRef<W> world_;
     PhotonMappingSettings settings_;
     Passes passes_;
-    bool radius_is_chosen_ = false; // of the caustics
+    bool radius_is_chosen_ = false; // for the caustics map
     PhotonMapsT<Scalar> maps_{};
     std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
 };
@@ -493,8 +494,8 @@ PhotonMapper(const W&, const PhotonMappingSettings& = {}, Abilities<X...> = {})
 
 namespace detail {
 
-/// Direct light at a surface, found by shadow rays, or without them where the verdict
-/// of shadow photons is known.
+/// Direct light at a surface. Where shadow photons tell whether a light is visible, no
+/// shadow ray is sent.
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_of_lights(const Mapper& mapper, const VertexT<T>& vertex,
                                       const M& material, const DirectLightSettings& how,

@@ -47,8 +47,8 @@ inline constexpr std::size_t max_cache_nearest = 64;
 /// How irradiance is gathered and interpolated.
 struct GatherSettings {
     int rays = 25;           ///< Gather rays per point, at least 1.
-    int tile = 3;            ///< Side of a square tile of pixels, in pixels; one camera
-                             ///< ray through each tile makes points.
+    int tile = 3;            ///< Side of a square tile, in pixels; one camera ray
+                             ///< through each tile makes points.
     std::size_t nearest = 6; ///< Number of points in an interpolation, 2 to 64.
     float reach = 1;     ///< Largest distance of a point that is used, as a multiple
                          ///< of the harmonic mean length of its gather rays.
@@ -70,8 +70,7 @@ struct PhotonMappingSettings {
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
     /// Whether lights share caustics.photons by how much flux of each light arrives,
     /// even with CausticBudget::as_seen. A pilot pass of at most a quarter of the
-    /// photons measures the flux. It needs the ability Budgeting, and is ignored
-    /// without it.
+    /// photons measures the flux. The setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.

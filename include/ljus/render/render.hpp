@@ -18,8 +18,8 @@
 namespace ljus {
 
 /// \defgroup render Rendering
-/// \brief Section 3.2: "in order to render an image, primary rays are cast into the
-/// scene".
+/// \brief The loop over the pixels of a picture: "in order to render an image, primary
+/// rays are cast into the scene" (Section 3.2).
 /// \{
 
 /// Size and sampling of a picture.
@@ -120,7 +120,7 @@ template <std::floating_point T, StreamLike Stream>
 /// The result of one ray of a pixel.
 template <std::floating_point T>
 struct PixelSampleT {
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, W/(m^2 sr).
     T weight = T(1);        ///< Filter weight at the ray's position.
 };
 

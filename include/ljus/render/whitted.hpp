@@ -10,8 +10,8 @@
 namespace ljus {
 
 /// \defgroup whitted Whitted's ray tracing
-/// \brief Section 2.1: "trace both refractive, reflective and shadow rays", after
-/// Whitted \cite whitted1980. Chapter: \ref ch_whitted.
+/// \brief A tree of reflected, refracted and shadow rays (Section 2.1), after Whitted
+/// \cite whitted1980. Chapter: \ref ch_whitted.
 ///
 /// In Heckbert's notation this renderer finds the paths L D? S* E, with one point of
 /// each light. It finds no diffuse interreflection L D D E and no caustics L S D E.

@@ -76,7 +76,7 @@ private:
         std::size_t number = 0;
         double metal = 1, roughness = 1;
         const ImageT<T>* picture = nullptr; // of metal and roughness
-        std::vector<double> uv{};           // for it
+        std::vector<double> uv{};           // uv for it
     };
 
     // Adds a note about a part of the file to the report. The number of notes is

@@ -145,7 +145,8 @@ using JsonNames = std::span<const std::string_view>;
                                : join({"is not known; did you mean ", near,
                                        "? The fields here are ", list}));
 }
-// Throws such an error about a value that must be one of several words.
+// Throws an error about a value that must be one of several words, and proposes the
+// nearest word.
 [[noreturn]] inline void refuse_word(const JsonField& field,
                                      const std::vector<std::string>& known,
                                      const std::string& right) {
@@ -207,7 +208,8 @@ inline void require_one_of(const JsonField& field, JsonNames names) {
     return static_cast<long long>(value);
 }
 
-// The path of a file that a scene file names, relative to the scene file.
+// The path of a file that a scene file names. Unless absolute, it is relative to the
+// folder of the scene file.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
     return path_beside(field.file, text(field));
 }

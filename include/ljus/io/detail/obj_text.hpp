@@ -169,7 +169,8 @@ inline bool is_one_of(std::string_view word,
     return is_one_of(word, std::span(list.begin(), list.size()));
 }
 
-// The number that a word is, 0 if it is too small for double; NaN for anything else.
+// The number that a word spells; 0 if it is too small for double, and NaN if the word
+// is no number.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;

@@ -24,7 +24,7 @@ struct JsonBuilder {
     using number_float_t = nlohmann::json::number_float_t;
 
     std::string_view source;             // the whole file, for counting lines
-    const std::string& file;             // its name
+    const std::string& file;             // name of the file
     nlohmann::json root{};               // the value that is built
     std::vector<nlohmann::json*> open{}; // the enclosing lists and objects
     nlohmann::json* member = nullptr;    // the current member, if the innermost is an

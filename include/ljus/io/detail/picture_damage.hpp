@@ -34,8 +34,8 @@ inline std::uint32_t png_number(const Bytes& file, std::size_t at) {
     return static_cast<std::uint32_t>(number_in(file, at, 4));
 }
 
-// The CRC-32 of the bytes from `first` to `last` - 1. A PNG chunk ends with that of its
-// name and data.
+// The CRC-32 of the bytes from `first` to `last` - 1. A PNG chunk ends with the CRC-32
+// of its name and data.
 inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t last) {
     static constexpr auto table = [] {
         std::array<std::uint32_t, 256> sums{};
