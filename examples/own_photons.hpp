@@ -60,7 +60,7 @@ inline ljus::Rgb irradiance(const OwnMap& map, const ljus::Vec3& x,
 // [irradiance]
 
 // [library]
-/// The same photons in the library's map, without their bounces.
+/// Copies photons into a map of the library, without their bounces.
 inline ljus::PhotonMap library_map(const std::vector<OwnPhoton>& photons) {
     std::vector<ljus::Photon> copies;
     for (const OwnPhoton& photon : photons)

@@ -1,6 +1,6 @@
-// Assignment 4: each test is a sentence that must hold. Its name states its points. Means
-// are compared with closed forms and with quadrature within five standard errors: a
-// right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
+// Assignment 4: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms and with quadrature within five standard errors:
+// a right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
 // right estimator will do.
 #include <answer.hpp> // first: it must include what it needs
 

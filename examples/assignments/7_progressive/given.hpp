@@ -23,7 +23,8 @@ using ljus::Vec2, ljus::Vec3;
 /// the floor.
 using Landing = std::optional<Vec2> (*)(RandomStream& stream);
 
-/// Light: the flux of all emitted photons, W, and a function that lands one of them.
+/// Light: the flux of all emitted photons, W, and a function that returns where one of
+/// them lands.
 struct Light {
     double flux = 1;
     Landing land = nullptr;

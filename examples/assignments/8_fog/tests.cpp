@@ -1,7 +1,7 @@
-// Assignment 8: each test is a sentence that must hold. Its name states its points. Means
-// are compared with closed forms, or with sums over a fine grid, within five standard
-// errors: a right answer fails a check once in 1.7 million seeds, and the seeds are
-// fixed. Any right estimator will do.
+// Assignment 8: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms, or with sums over a fine grid, within five
+// standard errors: a right answer fails a check once in 1.7 million seeds, and the
+// seeds are fixed. Any right estimator will do.
 #include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN

@@ -37,8 +37,8 @@ struct PathSum {
 template <std::floating_point T>
 struct ExplainedPixelT {
     RgbT<T> radiance{T(0)};              ///< The same as in render(), to the last bit.
-    std::vector<detail::PathSum> sums{}; ///< Brightest first; the radiance is their
-                                         ///< sum.
+    std::vector<detail::PathSum> sums{}; ///< Contributions, brightest first; their sum
+                                         ///< is the radiance.
     std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.
     int samples = 0;                     ///< The number of rays.
     int rejected = 0; ///< Rays that are left out because they were not finite.

@@ -103,7 +103,7 @@ caustics_clause(const PhotonMappingSettings& settings) {
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
-// Such as "3 of 7 objects mirror or refract".
+// A text such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {
     return std::to_string(count) + " of " + std::to_string(found.objects) +

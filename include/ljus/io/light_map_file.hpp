@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/light_map_file.hpp
-/// \brief Light maps in files.
+/// \brief Saves and loads light maps.
 
 #include <algorithm>
 #include <optional>

@@ -265,7 +265,7 @@ private:
         const PlyVertex has = vertex ? properties_of(element) : PlyVertex{};
         if (vertex && !whole(has.position))
             refuse("its vertices must have the properties x, y and z");
-        if (element.properties.empty()) return; // it takes no bytes
+        if (element.properties.empty()) return; // such elements take no bytes
         if (vertex || face) note_unused(element, has);
         if (element.count > 0 && !vertex && element.name != "face")
             mesh_.report.notes.push_back(join(

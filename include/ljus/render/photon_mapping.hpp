@@ -299,9 +299,9 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
 ///     const PhotonMapper mapper(world, {.indirect = IndirectLight::map});
 ///     const PhotonMapper fast(world, preset_settings(Preset::fast, 400, 400),
 ///                             abilities<Gathering>);
-/// \tparam X  Its abilities, and its random stream: RandomStream by default, or
-///            StratifiedStream, which stratifies the choice of lamps and directions
-///            over the rays of a pixel.
+/// \tparam X  The abilities of the mapper, and its random stream: RandomStream by
+///            default, or StratifiedStream, which stratifies the choice of lamps and
+///            directions over the rays of a pixel.
 template <typename W, typename... X>
 class PhotonMapper {
     static_assert((detail::Included<X> && ...),

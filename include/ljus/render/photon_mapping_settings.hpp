@@ -142,13 +142,13 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 
 } // namespace detail
 
-/// Settings for a purpose.
+/// The purposes for which there are ready settings.
 enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
-    /// Least time without visible errors. More rays do not remove its bias. Indirect
-    /// light is smoothed over 4 pixels, so that dark corners are too bright, by 10 % or
-    /// more within 8 pixels. Penumbras are slightly wrong. Caustics and glossy
-    /// reflections are blurred.
+    /// Least time without visible errors. More rays do not reduce the bias of this
+    /// preset. Indirect light is smoothed over 4 pixels, so that dark corners are too
+    /// bright, by 10 % or more within 8 pixels. Penumbras are slightly wrong. Caustics
+    /// and glossy reflections are blurred.
     fast,
     exact ///< Indirect rays at every bounce; only the caustics map is biased.
 };

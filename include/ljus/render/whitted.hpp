@@ -22,7 +22,7 @@ struct WhittedSettings {
     int max_depth = 5; ///< Largest number of reflections and refractions in a row, 0 to
                        ///< 1000; each is a recursive call.
     bool split_glass =
-        true;          ///< Whether glass sends both rays, or one chosen at random.
+        true;          ///< Whether both rays continue at glass, or one at random.
     bool lamps = true; ///< Whether lamps with a size send light, from their centres.
     Rgb ambient{0};    ///< W/(m^2 sr) from all directions at every diffuse surface, for
                        ///< the light that the tree does not find.

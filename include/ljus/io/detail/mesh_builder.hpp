@@ -207,7 +207,7 @@ public:
         };
         colors_.resize(colored_.count > 0 ? std::size_t(report.content.vertices) : 0,
                        no_color);
-        std::vector<std::uint32_t> vertices; // of `whole`, in their parts
+        std::vector<std::uint32_t> vertices; // number of each within its part
         vertices.reserve(corners.size());
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [position, uv, normal, number] = corners[i];
