@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 4
 /// \file 02_radiance.cpp
-/// \brief A lamp leaves a white wall: the wall becomes darker, the lamp does not.
+/// \brief A lamp moves away from a white wall. The wall becomes darker, but the
+/// radiance of the lamp does not change.
 
 #include <string>
 

@@ -74,7 +74,7 @@ Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
                                        [](const Lambertian& m) { return m.albedo; });
 }
 
-/// The room of a size.
+/// The room in one size.
 Image picture(int width, double size, float fixed) {
     const int height = std::max(1, 2 * width / 3);
     const auto room = make_room(size);
@@ -97,7 +97,7 @@ Image picture(int width, double size, float fixed) {
 
 } // namespace
 
-/// Makes the pictures of both kinds.
+/// Makes pictures with both kinds of shadow rays.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 5, the ray: one room in five sizes.");

@@ -46,7 +46,7 @@ void for_each_ball(bool white, F f) {
                 .rows = 8}});
 }
 
-/// The row in a room with two lamps, by photon mapping.
+/// Renders the row of balls in a room with two lamps, by photon mapping.
 Image in_a_room(const examples::Options& options) {
     Row scene;
     const auto matt = [&](const Rgb& c) { return scene.add(Lambertian{.albedo = c}); };
@@ -78,8 +78,8 @@ Image in_a_room(const examples::Options& options) {
     return examples::rendered("room", mapper, camera, options).image;
 }
 
-/// Each ball alone under a sky of radiance 1, at half the exposure: a ball that loses
-/// no light is as grey as the sky.
+/// Renders each ball alone under a sky of radiance 1, at half the exposure. A ball that
+/// loses no light is as grey as the sky.
 void in_a_furnace(bool white, Image& figure, const examples::Options& options) {
     for_each_ball(white, [&](int place, const auto& material) {
         Row scene;

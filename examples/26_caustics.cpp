@@ -32,7 +32,7 @@ void figure_8(const GlassRoom& room, const examples::Options& options) {
     save_png(image, options.path("fig-8.png"));
 }
 
-/// Pictures of one size side by side.
+/// Puts pictures of one size side by side.
 Image in_a_row(const std::vector<Image>& pictures) {
     const int width = pictures[0].width, height = pictures[0].height;
     const int gap = std::max(1, width / 50), count = int(pictures.size());

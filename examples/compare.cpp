@@ -89,12 +89,12 @@ double level_of(const Image& image) {
 struct Errors {
     double mean = 0;     ///< Mean of the picture.
     double truth = 0;    ///< Mean of the reference.
-    double rmse = 0;     ///< rmse().
-    double relative = 0; ///< rel_mse().
-    double trimmed = 0;  ///< trimmed_rel_mse().
-    double block = 0;    ///< block_error().
-    double flip = 0;     ///< flip(), of the picture as a screen shows it.
-    double hdr_flip = 0; ///< hdr_flip().
+    double rmse = 0;     ///< Result of rmse().
+    double relative = 0; ///< Result of rel_mse().
+    double trimmed = 0;  ///< Result of trimmed_rel_mse().
+    double block = 0;    ///< Result of block_error().
+    double flip = 0;     ///< Result of flip(), for the picture as a screen shows it.
+    double hdr_flip = 0; ///< Result of hdr_flip().
 
     /// Difference of the means in per cent of the reference; NaN if that is black.
     [[nodiscard]] double per_cent() const {
@@ -160,7 +160,7 @@ void print_json(const Errors& errors, const Request& request) {
 /// \param runs  How many numbers, at least 2.
 double chance_beyond(double z, std::size_t runs) {
     const double freedom = double(runs) - 1;
-    constexpr int steps = 1000; // of the midpoint rule, from 0 to z
+    constexpr int steps = 1000; // steps of the midpoint rule, from 0 to z
     double inside = 0;
     for (int i = 0; i < steps; ++i) {
         const double t = z * (i + 0.5) / steps;

@@ -16,10 +16,10 @@ namespace reader {
 // [conversions]
 /// The vector type of a program that was written without this library.
 struct Vector {
-    float x = 0, y = 0, z = 0; ///< In scene units; or a colour.
+    float x = 0, y = 0, z = 0; ///< Lengths in scene units, or a colour.
 
     Vector() = default;                                       ///< Zero.
-    Vector(float a, float b, float c) : x(a), y(b), z(c) {}   ///< By components.
+    Vector(float a, float b, float c) : x(a), y(b), z(c) {}   ///< From components.
     Vector(const glm::vec3& v) : x(v.x), y(v.y), z(v.z) {}    ///< From the library.
     operator glm::vec3() const { return glm::vec3(x, y, z); } ///< To the library.
 };

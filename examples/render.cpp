@@ -91,7 +91,7 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
         rendered = render_region(renderer, camera, picture, examples::region_of(r));
     } else if (r.part.count > 0) {
         const RowRange rows = examples::rows_of(r.part, picture.height);
-        if (rows.first == rows.last) return result; // more slices than rows
+        if (rows.first == rows.last) return result; // if slices outnumber rows
         rendered = render_rows(renderer, camera, picture, rows);
     } else {
         rendered = render(renderer, camera, picture);
@@ -171,7 +171,7 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
                         maps.fog_caustics.photons.size() + maps.fog.photons.size());
     }
     if (passes.cache) fill_cache(mapper, room.camera, r);
-    r.photon = mapper.settings(); // with the chosen radii and fractions
+    r.photon = mapper.settings(); // including the chosen radii and fractions
     if (!r.quiet && !maps.caustics.empty()) examples::print_caustics(r.photon);
     return run(mapper, room.camera, r);
 }
@@ -227,7 +227,7 @@ RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& 
     std::fputs(r.remarks.c_str(), stderr);
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
-    r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset
+    r.preset = static_cast<Preset>(kept.choice.recipe); // one recipe each
     r.kept = {
         {"why", kept.why},
         {r.promise.seconds > 0 ? "seconds" : "error",
@@ -257,7 +257,7 @@ template <typename S>
 RenderedT<typename S::Scalar> draw_photons(const FileRoom<S>& room, const Request& r) {
     using T = typename S::Scalar;
     using enum PhotonKind;
-    const CameraT<T>& camera = room.camera.pinhole; // dots are sharp
+    const CameraT<T>& camera = room.camera.pinhole; // without the lens
     RenderedT<T> drawn{
         scene_drawing(room.world, camera, r.picture.width, r.picture.height)};
     for (const bool caustics : {false, true}) {

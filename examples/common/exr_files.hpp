@@ -41,6 +41,7 @@ template <typename Files>
 
 #else
 
+/// Throws an error that says that the program was built without OpenEXR.
 /// \throws std::runtime_error  always.
 [[noreturn]] inline void no_exr(const std::string& path) {
     throw std::runtime_error("'" + path +

@@ -78,7 +78,7 @@ inline void print_rows(const Table& table, int width = 12) {
                                      [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Prints a table on the terminal: each column is as wide as its cells, and longer
+/// Prints a table on the terminal. Each column is as wide as its cells, and longer
 /// headings take several lines.
 /// \param table  The table.
 inline void print_table(const Table& table) {

@@ -47,8 +47,8 @@ struct Recipe {
 
 /// The forecast of a pilot for one recipe. Errors are in relMSE.
 struct Forecast {
-    double seconds = 0; ///< Time of one picture.
-    double noise = 0;   ///< Variance of one picture; the mean of n has noise / n.
+    double seconds = 0; ///< Time of one picture, in seconds.
+    double noise = 0;   ///< Variance of one picture; noise / n for the mean of n.
     double bias = 0;    ///< Squared bias, which averaging does not reduce.
     double unsure = 0;  ///< Standard error of the squared bias.
 };
@@ -109,7 +109,7 @@ struct Promise {
 struct Choice {
     std::size_t recipe = 0; ///< Index of the recipe.
     long long pictures = 1; ///< Number of pictures to average.
-    double seconds = 0;     ///< Expected time of all of them.
+    double seconds = 0;     ///< Expected time of all pictures, in seconds.
     double error = 0;       ///< Expected relMSE of their mean.
     bool possible = true;   ///< Whether the promise can be kept.
 };
@@ -148,7 +148,7 @@ struct Choice {
         }
         const bool better = possible == best.possible ? worth < of_best : possible;
         if (i > 0 && !better) continue;
-        n = std::min(n, 1e12); // infinity has no whole number
+        n = std::min(n, 1e12); // because infinity does not fit into an integer
         best = {i, static_cast<long long>(n), n * seconds, bias + noise / n, possible};
     }
     return best;

@@ -224,7 +224,7 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 [[nodiscard]] std::vector<Forecast> pilot(const W& world, const C& camera,
                                           const ljus::RenderSettings& picture,
                                           const Promise& promise, Clock&& now) {
-    constexpr std::size_t least = 3, most = 64; // pictures of each
+    constexpr std::size_t least = 3, most = 64; // pictures by each recipe
     PilotRun run = make_pilot(world, picture);
     const auto try_again = [&](std::size_t i) {
         examples::try_again(run, i, world, camera, picture.seed, now);
@@ -266,11 +266,11 @@ struct Kept {
     std::string remarks{};         ///< The result of mapper_remarks().
     long long pictures = 0;        ///< The number of pictures.
     double seconds = 0;            ///< Time since the clock began, including the pilot.
-    double noise = 0;              ///< Variance of the mean, from the scatter.
-    PictureCheck check{};          ///< Path-traced pixels; no rounds if paths do not
-                                   ///< carry all light of the scene.
-    StatedError stated{};          ///< The stated error; without a check the upper end
-                                   ///< for blocks is infinity.
+    double noise = 0;     ///< Variance of the mean, from the scatter of the pictures.
+    PictureCheck check{}; ///< Path-traced pixels; without rounds if paths do
+                          ///< not carry all light of the scene.
+    StatedError stated{}; ///< The stated error; without a check the upper end
+                          ///< for blocks is infinity.
 
     /// The forecast for the chosen recipe, with the bias that the check has measured.
     [[nodiscard]] const Forecast& forecast() const { return found[choice.recipe]; }

@@ -69,7 +69,8 @@ std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
     std::partial_sum(out.begin(), out.end(), out_at.begin() + 1);
     std::partial_sum(in.begin(), in.end(), in_at.begin() + 1);
     std::vector<T> all(static_cast<std::size_t>(in_at.back()));
-    MPI_Datatype value = MPI_DATATYPE_NULL; // MPI counts in int: values, not bytes
+    MPI_Datatype value = MPI_DATATYPE_NULL; // MPI counts in int, so values are counted,
+                                            // not bytes
     MPI_Type_contiguous(static_cast<int>(sizeof(T)), MPI_BYTE, &value);
     MPI_Type_commit(&value);
     MPI_Alltoallv(sent.data(), out.data(), out_at.data(), value, all.data(), in.data(),

@@ -64,9 +64,9 @@ struct RenderRequest {
     ljus::PathTracingSettings path{};
     /// MIS weights of shadow rays and paths in a path tracer; none: no shadow rays.
     std::optional<ljus::MisHeuristic> path_lights = ljus::MisHeuristic::balance;
-    double photon_memory = 4;      ///< Limit for each photon pass, in GB.
-    PassOptions passes{};          ///< Progressive photon maps.
-    Promise promise{};             ///< A time or an error.
+    double photon_memory = 4;      ///< Memory limit of each photon pass, in GB.
+    PassOptions passes{};          ///< Passes of progressive photon mapping.
+    Promise promise{};             ///< The promised time or error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
     std::string remarks{};         ///< Remarks on the photon passes, one per line.
     std::string slice{};           ///< Text such as "3/16", or empty.

@@ -112,7 +112,8 @@ estimate_irradiance(const PhotonMap& map, const SurfacePoint& point,
             found.begin(), kth, found.end(),
             [](const Found& a, const Found& b) { return a.distance2 < b.distance2; });
         radius = std::sqrt(kth->distance2);
-        found.erase(kth, found.end()); // it lies on the border
+        found.erase(kth, found.end()); // without the k-th photon, which lies on the
+                                       // border
     }
     Estimate result{.radius = radius, .gathered = found.size()};
     if (!(radius > 0)) return result;

@@ -73,7 +73,7 @@ struct LampPoint {
     for (const Object& object : scene.objects) {
         const double own = flux(object);
         if (!(own > 0)) continue;
-        chosen.lamp = &object; // the last lamp takes what rounding leaves
+        chosen.lamp = &object; // after rounding, the last lamp is chosen
         chosen.probability = own / all;
         left -= own;
         if (left < 0) break;

@@ -14,7 +14,7 @@ using ljus::Pass, ljus::PhotonKind, ljus::require_at_least, ljus::require_positi
 
 // Sections 2.3 and 3.2.2 in two dimensions.
 
-/// A photon where it met a diffuse surface.
+/// A photon at the point where it met a diffuse surface.
 /// \report{Section 2.3}
 struct Photon {
     Vec2 position{0};                     ///< Position, in metres.

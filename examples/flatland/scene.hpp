@@ -24,7 +24,7 @@ using ljus::require, ljus::require_unit;
 /// A ray, and the range of distances in which hits count.
 /// \report{Definition 3.1}
 struct Ray {
-    Vec2 origin{0};        ///< Where it starts.
+    Vec2 origin{0};        ///< The start of the ray.
     Vec2 direction{0, -1}; ///< Unit vector.
     double t_min = 1e-9;   ///< Least distance of a hit. It is above 0, so that a ray
                            ///< does not hit the surface where it starts.

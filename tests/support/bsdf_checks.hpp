@@ -125,7 +125,7 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
         }
     CHECK(dense <= 1 + 1e-5);
     expected.back() = std::max(0.0, 1 - dense) * count;
-    if (expected.back() < 1) expected.back() = 0; // quadrature error
+    if (expected.back() < 1) expected.back() = 0; // error of the quadrature
 
     Draws draws{seed};
     const T u = std::numeric_limits<T>::epsilon() / 2;

@@ -18,7 +18,7 @@ namespace ljus_test {
 struct Draws {
     std::uint64_t state = 1; ///< The seed.
 
-    /// 64 random bits.
+    /// Draws 64 random bits.
     std::uint64_t bits() {
         std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;

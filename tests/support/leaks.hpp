@@ -116,10 +116,10 @@ inline ClosedMesh cut_cube(int cuts, double half, ljus::Vec3T<double> center) {
 
 /// The target of a ray.
 enum class Aim {
-    edge,   ///< A point of an edge; the direction has unit length.
-    vertex, ///< A vertex; the direction has unit length.
+    edge,   ///< A point of an edge. The direction has unit length.
+    vertex, ///< A vertex. The direction has unit length.
     axis,   ///< A vertex or an edge, in the direction of an axis.
-    tie     ///< A vertex or an edge; the direction is the vector to it, often exactly.
+    tie     ///< A vertex or an edge. The direction leads to the target, often exactly.
 };
 
 /// A ray from within the mesh at a vertex or edge. For Aim::axis the direction

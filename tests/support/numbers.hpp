@@ -29,7 +29,7 @@ struct Numbers {
         const double x = between(-size, size), y = between(-size, size);
         return {x, y, between(-size, size)};
     }
-    ljus::Vec3 whole_point(int size) { // of whole numbers, exact in float up to 2^24
+    ljus::Vec3 whole_point(int size) { // whole coordinates, exact in float up to 2^24
         const auto part = [&] { return static_cast<float>(below(2 * size) - size); };
         const float x = part(), y = part();
         return {x, y, part()};

@@ -140,7 +140,7 @@ inline ChiSquare chi_square(std::span<const double> counts,
 inline bool chi_square_agrees(std::span<const double> counts,
                               std::span<const double> expected, double z) {
     const ChiSquare found = chi_square(counts, expected);
-    if (found.cells < 2) return found.sum < 1e-9; // a single cell is not random
+    if (found.cells < 2) return found.sum < 1e-9; // one cell is not random
     return found.sum <= found.limit(z);
 }
 

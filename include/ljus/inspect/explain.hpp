@@ -41,7 +41,7 @@ struct ExplainedPixelT {
                                          ///< is the radiance.
     std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.
     int samples = 0;                     ///< The number of rays.
-    int rejected = 0; ///< Rays that are left out because they were not finite.
+    int rejected = 0; ///< Rays that are left out because their radiance is not finite.
 };
 
 namespace detail {
@@ -97,7 +97,7 @@ take_apart(const R& renderer, const C& camera, const RenderSettings& picture, in
     return pixel;
 }
 
-// "EDSL" as "E D S L".
+// Spaces the letters of a path: "EDSL" becomes "E D S L".
 inline std::string spaced(const std::string& letters) {
     std::string text;
     for (const char c : letters) {
@@ -118,7 +118,7 @@ inline std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-// "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
+// A line such as "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
 inline std::string line_of(const std::string& letters, const std::string& what,
                            const glm::dvec3& value) {
     return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) +

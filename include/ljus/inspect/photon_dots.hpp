@@ -28,7 +28,7 @@ struct PhotonDotSettings {
 };
 
 /// A background for photons: the colours of the surfaces without lighting, darkened at
-/// low angles. Mirrors and glass are grey, lamps bright.
+/// low angles. Mirrors and glass are grey, and lamps are bright.
 /// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray per pixel.
 template <AnyWorld W, std::floating_point T>

@@ -49,7 +49,7 @@ template <AnyWorld W, std::floating_point T, typename K>
         const auto point = vertex_at(world, line, *hit).point;
         const Vec3T<T> way = point.position - photon.position;
         const T distance2 = glm::dot(way, way) / (radius * radius);
-        const T cosine = glm::dot(point.normal, photon.normal); // as turned_away()
+        const T cosine = glm::dot(point.normal, photon.normal); // as in turned_away()
         if (cosine > T(0.5) && distance2 < T(1) &&
             std::abs(glm::dot(way, point.normal)) < height)
             found += double(kernel_weight(gather.kernel, distance2) / cosine);

@@ -108,7 +108,8 @@ class ExrReader {
 public:
     ExrReader(const Bytes& bytes, const std::string& path)
         : bytes_(bytes), path_(path) {
-        auto settings = exr_settings(const_cast<Bytes*>(&bytes)); // it is only read
+        auto settings = exr_settings(const_cast<Bytes*>(&bytes)); // the bytes are only
+                                                                  // read
         settings.size_fn = [](exr_const_context_t, void* data) {
             return static_cast<std::int64_t>(static_cast<const Bytes*>(data)->size());
         };

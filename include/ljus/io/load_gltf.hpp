@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_gltf.hpp
-/// \brief Meshes, cameras and lights from glTF 2.0 files.
+/// \brief Reads meshes, cameras and lights from glTF 2.0 files.
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_ies.hpp
-/// \brief The measured intensities of lamps, from IES files.
+/// \brief Reads the measured intensities of lamps from IES files.
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_json.hpp
-/// \brief Scenes from JSON files.
+/// \brief Reads scenes from JSON files.
 
 #include <map>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_obj.hpp
-/// \brief Meshes from OBJ files.
+/// \brief Reads meshes from OBJ files.
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_ply.hpp
-/// \brief Meshes from PLY files.
+/// \brief Reads meshes from PLY files.
 
 #include <array>
 #include <optional>

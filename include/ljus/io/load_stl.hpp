@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_stl.hpp
-/// \brief Meshes from STL files.
+/// \brief Reads meshes from STL files.
 
 #include <utility>
 

@@ -98,12 +98,12 @@ struct AdaptiveBlock {
     int x = 0, y = 0;          ///< Column and row of its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
     int rays = 0;              ///< Rays per pixel so far, without discarded ones.
-    int batches = 0;           ///< Batches traced so far; the first rays are one.
+    int batches = 0;           ///< Batches traced so far, including the first rays.
     int wanted = 1;            ///< Batches to trace in this round.
     int more = 0;              ///< Rays per pixel in each batch but the first.
-    double variance = 0;       ///< See relative_variance().
-    Rgb sum{0};                ///< Sum of the radiance of its first rays.
-    Rgb squares{0};            ///< Sum of the squared radiance of its first rays.
+    double variance = 0; ///< Relative variance of the rays; see relative_variance().
+    Rgb sum{0};          ///< Sum of the radiance of its first rays.
+    Rgb squares{0};      ///< Sum of the squared radiance of its first rays.
 
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);

@@ -192,8 +192,8 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
 /// Irradiance that was gathered at a point.
 template <std::floating_point T>
 struct GatheredT {
-    RgbT<T> irradiance{T(0)};          ///< Indirect light alone; W/m^2.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the side that is seen.
+    RgbT<T> irradiance{T(0)};          ///< Irradiance of indirect light alone, W/m^2.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
     T spacing = T(0);  ///< Distance to the k-th nearest point of the cache with a
                        ///< similar normal.

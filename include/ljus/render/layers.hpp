@@ -150,7 +150,7 @@ struct LayeredPixel {
     RgbT<double> picture{0};
     Vec3T<double> normal{0};
     RgbT<double> albedo{0};
-    std::vector<RgbT<double>> light{}; ///< One per class of paths.
+    std::vector<RgbT<double>> light{}; ///< Sums of light, one per class of paths.
 
     /// Divides each sum by the number of rays, which gives the means.
     void divide(double rays) {

@@ -61,7 +61,7 @@ struct Passes {
     bool skipped_bounces = false;
     bool irradiance = false;
     bool cache = false;
-    bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
+    bool gloss_as_mirrors = false; ///< Value of PhotonPassSettings::gloss_as_mirrors.
     bool caustics_on_gloss = true; ///< Whether the caustics map may have photons where
                                    ///< there is no diffuse lobe.
 };

@@ -67,12 +67,15 @@ inline constexpr Abilities<X...> abilities{};
 /// The maps that the photon passes have made (Section 3.2.2 of the report).
 template <std::floating_point T>
 struct PhotonMapsT {
-    PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
+    PhotonMapT<T> caustics; ///< Photons L S+ D; empty if the scene has no mirror and no
+                            ///< glass.
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
-    PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
-    VolumeMapT<T> fog_caustics; ///< L S+ D where D is fog; empty without fog.
-    VolumeMapT<T> fog; ///< L ... D ... D where the last D is fog; empty without fog.
+    PhotonMapT<T> general; ///< Photons L D and L ... D ... D, and shadow photons; empty
+                           ///< unless asked for.
+    VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
+    VolumeMapT<T> fog; ///< Photons L ... D ... D where the last D is fog; empty without
+                       ///< fog.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool starved = false;       ///< Whether the general map has fewer indirect photons
@@ -501,7 +504,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                                       const M& material, const DirectLightSettings& how,
                                       Context& context) {
     if constexpr (Mapper::template has<Skipping>)
-        if (!scatters_through(material)) // a verdict is about one side
+        if (!scatters_through(material)) // a verdict holds for one side only
             return sample_all_lights(
                 mapper.world(), vertex, material, how, context,
                 verdicts_of(mapper, at_rest(mapper.world(), vertex)));

@@ -155,7 +155,7 @@ enum class Preset : std::uint8_t {
 
 /// The settings of a preset. The number of photons depends on the size of the picture,
 /// because smaller pixels show smaller errors; radii are chosen from the photons.
-/// \param preset  Which one.
+/// \param preset  The preset.
 /// \param width   Width of the picture, in pixels.
 /// \param height  Height of the picture, in pixels.
 /// \return All settings; only seeds and threads have their defaults.
@@ -205,7 +205,7 @@ struct PresetRays {
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
-/// \param preset  Which one.
+/// \param preset  The preset.
 /// \return The numbers of rays.
 [[nodiscard]] constexpr PresetRays preset_rays(Preset preset) noexcept {
     if (preset == Preset::draft) return {.first = 1, .more = 0};

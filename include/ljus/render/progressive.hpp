@@ -38,7 +38,7 @@ template <typename RenderPass>
 [[nodiscard]] ImageT<double> progressive_mean(long long passes, RenderPass&& pass,
                                               double alpha = 2.0 / 3) {
     ImageT<double> mean;
-    double shrink = 1; // of the radius, squared
+    double shrink = 1; // squared factor of the radius
     for (long long i = 1; i <= passes; ++i) {
         const auto image = pass(i, std::sqrt(shrink)).image;
         if (i == 1) mean = make_image<double>(image.width, image.height);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/render.hpp
-/// \brief The pixel loop.
+/// \brief Renders pictures: the loop over pixels.
 
 #include <algorithm>
 #include <optional>
@@ -24,8 +24,8 @@ namespace ljus {
 
 /// Size and sampling of a picture.
 struct RenderSettings {
-    int width = 400;        ///< Pixels, at least 1.
-    int height = 400;       ///< Pixels, at least 1.
+    int width = 400;        ///< Width in pixels, at least 1.
+    int height = 400;       ///< Height in pixels, at least 1.
     int samples = 64;       ///< Exact number of primary rays per pixel, at least 1.
     std::uint64_t seed = 1; ///< Seed of the random streams.
     int threads = 0;        ///< Number of threads; 0: all.
@@ -92,7 +92,7 @@ struct PictureRays {
 struct PixelRay {
     int x = 0;      ///< Column of its pixel.
     int y = 0;      ///< Row of its pixel.
-    int number = 0; ///< Which of the pixel's rays.
+    int number = 0; ///< Number of the ray within the pixel.
 };
 
 /// The position of one ray in the picture, and its filter weight.
@@ -155,8 +155,8 @@ trace_pixel(const R& renderer, const C& camera, const PictureRays& rays,
 struct PixelRegion {
     int x = 0;      ///< The first column.
     int y = 0;      ///< The first row, from the top.
-    int width = 1;  ///< Pixels, at least 1.
-    int height = 1; ///< Pixels, at least 1.
+    int width = 1;  ///< Width in pixels, at least 1.
+    int height = 1; ///< Height in pixels, at least 1.
 };
 
 /// Renders a part of a picture by several threads, for example one caustic of a large

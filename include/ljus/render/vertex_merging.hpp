@@ -72,9 +72,9 @@ namespace detail {
 template <std::floating_point T, Material M>
 struct CameraVertex {
     const VertexT<T>& at;          ///< The vertex.
-    const M& material;             ///< Its material.
+    const M& material;             ///< The material of the vertex.
     const SubpathWeights& weights; ///< MIS weights at the vertex.
-    int depth;                     ///< Surfaces from the eye to here.
+    int depth;                     ///< Number of surfaces from the eye to the vertex.
 };
 template <std::floating_point T, Material M>
 CameraVertex(const VertexT<T>&, const M&, const SubpathWeights&, int)

@@ -21,11 +21,11 @@ namespace ljus {
 struct WhittedSettings {
     int max_depth = 5; ///< Largest number of reflections and refractions in a row, 0 to
                        ///< 1000; each is a recursive call.
-    bool split_glass =
-        true;          ///< Whether both rays continue at glass, or one at random.
+    bool split_glass = true; ///< Whether both rays continue at glass, or one at random.
     bool lamps = true; ///< Whether lamps with a size send light, from their centres.
-    Rgb ambient{0};    ///< W/(m^2 sr) from all directions at every diffuse surface, for
-                       ///< the light that the tree does not find.
+    /// Ambient radiance, W/(m^2 sr), from all directions at every diffuse surface: a
+    /// substitute for the light that the tree does not find.
+    Rgb ambient{0};
 };
 
 /// Whitted's ray tracer of a world, which must outlive it.
@@ -99,7 +99,7 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
                   RgbT<T>& sum) {
     const W& world = tracer.world();
     const auto vertex = next_vertex(world, path, context.stream);
-    const RgbT<T> throughput = path.throughput; // of this vertex
+    const RgbT<T> throughput = path.throughput; // at this vertex
     const RadianceSum add{sum, throughput, context.log};
     if (!vertex) return add("sky", "L", sky_radiance(world, path.ray.direction));
     log_arrival(context.log, vertex->point.position);

@@ -221,7 +221,7 @@ private:
             if (!(length > 0)) refuse_value(*field, "a quaternion that is not 0");
             const glm::dvec3 axis = glm::dvec3(q[0], q[1], q[2]) / length;
             for (int i = 0; i < 3; ++i) {
-                glm::dvec3 unit(0); // turned by v + 2 w (a x v) + 2 a x (a x v)
+                glm::dvec3 unit(0); // rotation of v: v + 2 w (a x v) + 2 a x (a x v)
                 unit[i] = 1;
                 const glm::dvec3 twice = 2.0 * glm::cross(axis, unit);
                 matrix[i] = {unit + q[3] / length * twice + glm::cross(axis, twice), 0};

@@ -143,7 +143,7 @@ inline constexpr JsonTable object_tables[]{
     {"disc", {}, "a disc", disc_members},
     {"cylinder", {}, "a tube", cylinder_members}};
 
-// The three indices of a triangle.
+// Reads the three indices of a triangle.
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
@@ -167,7 +167,8 @@ inline glm::dvec3 point_of(const JsonField& field) {
             field.value[2].get<double>()};
 }
 
-// The triangles of an object; two that form a parallelogram become a quad.
+// Reads the triangles of an object. Two triangles that form a parallelogram become a
+// quad.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -332,7 +333,7 @@ void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& kn
         readings.push_back({named, std::move(parts.surfaces), first, all.size()});
 }
 
-// The meshes of a file, which the scene keeps for instances.
+// Reads the meshes of a file, which the scene keeps for instances.
 template <std::floating_point T, typename LoadMeshes>
 const typename FileMeshesT<T>::Kept&
 read_kept_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,

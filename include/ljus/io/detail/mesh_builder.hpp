@@ -401,7 +401,7 @@ void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
     pixels += static_cast<long long>(image.pixels.size());
 }
 
-// A picture of half the width and height.
+// A picture with half the width and height of another one.
 template <std::floating_point T>
 ImageT<T> halved(const ImageT<T>& image) {
     ImageT<T> half = make_image<T>((image.width + 1) / 2, (image.height + 1) / 2);
