@@ -6,11 +6,11 @@
 #define LJUS_CORE_EXTERN // the templates are defined here
 #define LJUS_CORE_INLINE
 
-// Compilers that can do so for templates compile the searches for SSE2, AVX2 and
-// AVX-512. With a sanitizer they are not, because the choice at run time is made before
-// the sanitizer is ready. Without -ffp-contract=off the results depend on the
-// processor: the AVX2 and AVX-512 versions round a product and a sum once instead of
-// twice.
+// The searches are compiled for SSE2, AVX2 and AVX-512, by compilers that can do so for
+// templates. With a sanitizer they are compiled once, because the choice at run time
+// would be made before the sanitizer is ready. Without -ffp-contract=off the results
+// depend on the processor: the AVX2 and AVX-512 versions round a product and a sum once
+// instead of twice.
 #include <cstddef> // defines __GLIBC__ if glibc is used
 #if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) &&                      \
     defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&     \

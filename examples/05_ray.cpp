@@ -16,7 +16,7 @@ using Point = Vec3T<double>;
 
 namespace {
 
-const Point middle{10, 10, -10}; // of a room of size 1: far from the origin
+const Point middle{10, 10, -10}; // middle of a room of size 1, far from the origin
 
 /// A point of the room, for a room of this size.
 Vec3 at(double size, const Point& place) {

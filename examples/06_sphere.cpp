@@ -15,7 +15,8 @@ using Point = Vec3T<double>;
 
 namespace {
 
-/// The unit sphere from a distance in radii. It always fills the picture.
+/// A picture of the unit sphere from a distance in radii. The sphere always fills the
+/// picture.
 /// \param meet  Returns the distance t at which a ray meets the sphere, or nothing.
 template <typename Meet>
 Image telescope(int size, double distance, Meet meet) {

@@ -19,7 +19,7 @@ using namespace ljus;
 
 namespace {
 
-/// 104 small balls of 96 triangles.
+/// Makes 104 small balls of 96 triangles each.
 std::vector<Triangle> balls() {
     std::vector<Triangle> triangles;
     RandomStream stream = random_stream(3, Pass::user, 0, 0);

@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
         wall({{-4, 0, 4}, {0, 5, 0}, {8, 0, 0}}, Rgb{0.2f});
         wall({{-4, 5, -4}, {8, 0, 0}, {0, 0, 8}}, Rgb{0.3f});
 
-        // A metal is known by its complex index of refraction, for red, green and blue.
+        // A metal is described by its complex index of refraction, for red, green and
+        // blue.
         const auto gold = scene.add(Metal{.index = ljus::gold<float>});
         const auto copper = scene.add(Metal{.index = ljus::copper<float>});
         const auto silver = scene.add(Metal{.index = ljus::silver<float>});

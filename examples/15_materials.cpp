@@ -84,7 +84,7 @@ void in_a_furnace(bool white, Image& figure, const examples::Options& options) {
     for_each_ball(white, [&](int place, const auto& material) {
         Row scene;
         const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-        scene.add(Sphere{.radius = 100}, black, Rgb{1}, true); // its inside
+        scene.add(Sphere{.radius = 100}, black, Rgb{1}, true); // seen from inside
         scene.add(ball_at(place), scene.add(material));
         const World world(std::move(scene));
         const int left = options.width * place / 8;

@@ -19,7 +19,7 @@ namespace {
 /// A renderer that shows what gather rays find, by sending them from the camera.
 template <typename Mapper>
 struct PointsSeen {
-    using Stream = RandomStream; ///< The random stream that render() passes to it.
+    using Stream = RandomStream; ///< The random stream that render() passes.
     const Mapper& mapper;        ///< A mapper with Gathering.
 };
 template <typename Mapper>

@@ -41,7 +41,8 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
     std::partial_sum(counts.begin(), counts.end(), before.begin() + 1);
     std::vector<Photon> all(std::size_t(before.back()));
-    MPI_Datatype photon = MPI_DATATYPE_NULL; // MPI counts in int: photons, not bytes
+    MPI_Datatype photon = MPI_DATATYPE_NULL; // MPI counts in int, so photons are
+                                             // counted, not bytes
     MPI_Type_contiguous(int(sizeof(Photon)), MPI_BYTE, &photon);
     MPI_Type_commit(&photon);
     MPI_Allgatherv(mine.photons.data(), count, photon, all.data(), counts.data(),

@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
             const double seconds = examples::processor_seconds() - before;
             table.rows.push_back({std::to_string(rays), time, text(first_pass, "%.2f"),
                                   text(seconds, "%.3g"), "", "", "", "", ""});
-            if (rays > options.pick(100, 1000, 1000)) continue; // a draft is quick
+            if (rays > options.pick(100, 1000, 1000)) continue; // to keep a draft quick
             const auto a = errors_of(fixed, room.camera, rays, oracle, options);
             const auto b = errors_of(roulette, room.camera, rays, oracle, options);
             auto cell = table.rows.back().begin() + 4;

@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
         std::vector<Image> shares(names.size(),
                                   make_image(options.width, options.height));
         examples::ProgressBar bar("passes", options.quiet);
-        double shrink = 1; // of the radius, squared
+        double shrink = 1; // squared factor of the radius
         for (int pass = 1; pass <= passes; ++pass) {
             const VertexMerger merger(world,
                                       {.paths = options.pick(20000, 40000, 60000),

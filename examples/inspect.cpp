@@ -6,9 +6,9 @@
 ///     ljus-inspect duck.glb --picture duck.png
 ///     ljus-inspect room.exr
 ///
-/// For a mesh file it prints what was read, what add_meshes() makes of each material,
-/// and each problem with its place in the file. For an EXR file it prints the layers
-/// and the range of their values. The picture is path-traced.
+/// For a mesh file the program prints what was read, what add_meshes() makes of each
+/// material, and each problem with its place in the file. For an EXR file it prints the
+/// layers and the range of their values. The picture is path-traced.
 
 #include <algorithm>
 #include <cmath>

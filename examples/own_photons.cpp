@@ -30,7 +30,7 @@ std::vector<OwnPhoton> trace(int count) {
     for (int i = 0; i < count; ++i) {
         auto stream = ljus::random_stream(1, ljus::Pass::user, 0, std::uint64_t(i));
         const ljus::Vec2 disc = ljus::sample_concentric_disc(ljus::next_2d(stream));
-        Vec3 from{disc.x, disc.y, 0.8f}; // through the opening
+        Vec3 from{disc.x, disc.y, 0.8f}; // a point of the opening
         Vec3 d = glm::normalize(from - lamp);
         for (int bounces = 0; bounces < 10; ++bounces) {
             const float floor = -from.z / d.z, wall = to_wall(from, d);

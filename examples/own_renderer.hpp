@@ -16,7 +16,7 @@ public:
     using Stream = ljus::RandomStream; ///< The random stream that render() passes.
 
     /// \param world  Must outlive the renderer.
-    /// \param reach  The distance, in scene units.
+    /// \param reach  The distance within which surfaces count, in scene units.
     AmbientOcclusion(ljus::WorldRef<World> world, float reach)
         : world_(world), reach_(reach) {}
     const World& world() const { return world_.get(); } ///< The world.
@@ -40,7 +40,7 @@ ljus::Rgb radiance(const AmbientOcclusion<World>& renderer, const ljus::Ray& ray
     const auto vertex = next_vertex(renderer.world(), path, context.stream);
     if (!vertex) return ljus::Rgb{1};
     ljus::Vec3 up = ljus::sample_cosine_hemisphere(ljus::next_2d(context.stream));
-    if (vertex->wo.z < 0) up.z = -up.z; // the side that is seen
+    if (vertex->wo.z < 0) up.z = -up.z; // on the visible side
     ljus::Ray out = spawn_ray(vertex->point, to_world(vertex->frame, up), vertex->time);
     out.t_max = renderer.reach();
     ++context.counts.bounce_rays;

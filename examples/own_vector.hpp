@@ -57,7 +57,7 @@ inline Vector at_glass(const Vector& d, const Vector& n, float u) {
     const float n1 = enters ? 1.0f : 1.5f, n2 = enters ? 1.5f : 1.0f;
     const std::optional<Vector> t = ljus::refract<float>(d, n, n1 / n2);
     if (!t) return ljus::reflect<float>(d, n); // total internal reflection
-    const Vector& outside = enters ? d : *t;   // where the index is lower
+    const Vector& outside = enters ? d : *t;   // on the side of the lower index
     const float cosine = std::abs(dot(outside, n));
     if (u < ljus::schlick(ljus::schlick_r0(n1, n2), cosine))
         return ljus::reflect<float>(d, n);

@@ -77,7 +77,7 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
     RenderedLayersT<T> result;
     RenderedT<T>& rendered = result.rendered;
     if (r.more_rays > 0) {
-        picture.samples += r.more_rays; // at most
+        picture.samples += r.more_rays; // the largest mean number
         auto adaptive = render_adaptive(renderer, camera, picture,
                                         {.first = r.picture.samples,
                                          .more = r.more_rays,

@@ -51,7 +51,7 @@ void require_folder(const std::string& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) fail(error.message());
     if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
-    // Permissions alone do not decide whether this works, so it is tried.
+    // Permissions alone do not decide whether a file can be written, so one is written.
     ljus::require_writable((std::filesystem::path(folder) / "probe").string());
 }
 
@@ -503,7 +503,7 @@ Options CommandLine::parse(const Presets& presets) {
     if (given("--out") && parser_->out.empty())
         throw std::invalid_argument("--out is empty; it must be a name");
     const std::filesystem::path out = options.out = parser_->out;
-    std::error_code error; // the text may not be a valid name at all
+    std::error_code error; // the text need not be a valid name
     const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
         !folder) {

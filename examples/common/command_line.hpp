@@ -211,7 +211,7 @@ public:
     void makes(const std::vector<std::string>& items);
 
     /// Adds a positional argument, which must be given.
-    /// \param name   Its name in --help.
+    /// \param name   The name of the argument in --help.
     /// \param value  Receives the argument.
     /// \param help   The line of --help.
     void add_positional(const std::string& name, std::string& value,

@@ -45,7 +45,7 @@ struct PowerLaw {
     }
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const double slope = n >= 2 ? uv / uu : nan;
-    const double off = std::max(vv - slope * uv, 0.0); // squared, along v
+    const double off = std::max(vv - slope * uv, 0.0); // sum of the squared residuals
     return {slope, n >= 3 ? std::sqrt(off / (n - 2) / uu) : nan};
 }
 

@@ -51,7 +51,7 @@ inline constexpr const char* red = "#d64550";    ///< The fifth curve.
 /// A diagram: a window of the plane, and the shapes that have been drawn in it.
 struct Drawing {
     std::string name;        ///< Name of the file, such as "fig-9".
-    std::string description; ///< A description for readers who cannot see it.
+    std::string description; ///< A description for readers who cannot see the diagram.
     Point low;               ///< Lower left corner of the window.
     Point high;              ///< Upper right corner of the window.
     double scale = 100;      ///< Pixels per unit.

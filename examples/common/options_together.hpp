@@ -24,7 +24,7 @@ struct NoEffect {
     bool all_but = false;             ///< Whether all options but these are meant.
 };
 
-/// Whether a PNG file is written. Only in PNG files --exposure has an effect.
+/// Whether a PNG file is written. --exposure has an effect in PNG files only.
 [[nodiscard]] inline bool exposed(const RenderRequest& r) {
     return r.part.count > 0 || !r.passes.preview.empty() ||
            std::filesystem::path(r.file).extension() == ".png";

@@ -106,7 +106,7 @@ void trace_round(PictureCheck& check, const W& world, const C& camera,
     check.seconds += now() - begin;
 }
 
-/// Whether paths carry all light of a scene. Only then they can check a picture.
+/// Whether paths carry all light of a scene. Only then can they check a picture.
 template <ljus::AnyWorld W>
 [[nodiscard]] bool paths_carry_all(const W& world) {
     return path_remarks(world).size() ==

@@ -72,7 +72,7 @@ struct PictureSlice {
     SliceNumber slice{};    ///< Number of the slice.
     int width = 0;          ///< Width of the whole picture.
     int height = 0;         ///< Height of the whole picture.
-    bool wide = false;      ///< Whether it was rendered in double.
+    bool wide = false;      ///< Whether the picture was rendered in double.
     double exposure = 0;    ///< Exposure of a PNG file of the picture, in stops.
     std::string settings{}; ///< The scene, its hash, and every setting, as JSON.
     ljus::Counts counts{};  ///< Cost of the rows.
@@ -200,7 +200,7 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
 /// A picture merged from slices.
 struct MergedPicture {
     ljus::ImageT<double> image{}; ///< All rows.
-    bool wide = false;            ///< Whether it was rendered in double.
+    bool wide = false;            ///< Whether the picture was rendered in double.
     double exposure = 0;          ///< Exposure of a PNG file, in stops.
     std::string settings{}; ///< All settings, and the cost of all slices, as JSON.
 };

@@ -19,7 +19,7 @@ namespace examples {
 /// A file that a program is about to write.
 struct OutputFile {
     std::string name; ///< The option that names it: "--out".
-    std::string path; ///< Path of the file; empty if it is not wanted.
+    std::string path; ///< Path of the file; empty if no file is wanted.
 };
 
 // The absolute path of a file with all links resolved. Neither the file nor the target

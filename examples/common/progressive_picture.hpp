@@ -91,7 +91,7 @@ template <typename RenderPass>
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
         require_same_picture(how.checkpoint, state.picture, how.picture);
-        if (state.passes > how.passes) // some would be lost
+        if (state.passes > how.passes) // some passes would be lost
             throw std::invalid_argument("--passes is " + std::to_string(how.passes) +
                                         "; it must be at least " +
                                         std::to_string(state.passes) +

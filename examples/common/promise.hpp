@@ -125,8 +125,8 @@ struct Choice {
 /// \param found     One forecast for each recipe.
 /// \param promise   Seconds, or an error.
 /// \param left      The promised seconds minus those of the pilot.
-/// \return The choice. If no recipe is possible, it is the quickest, or the one with
-///         the least bias.
+/// \return The choice. If no recipe is possible, the quickest is chosen for a promised
+///         time, and the one with the least bias for a promised error.
 [[nodiscard]] inline Choice choose(const std::vector<Forecast>& found,
                                    const Promise& promise, double left = 0) {
     Choice best{.possible = false};
@@ -216,10 +216,10 @@ struct Choice {
 /// mean of its neighbourhood, in proportion to its squared relative standard error, and
 /// replaced by that mean if the relative standard error is a half or more.
 /// \param state  At least 2 pictures, added by ljus::add_pass() with alpha 1.
-/// \param own    Whether the neighbourhood of a pixel includes the pixel itself. If it
-///               does, a single bright ray makes the neighbourhood bright too, and its
-///               own error seem small. If it does not, the error of a real highlight
-///               seems large.
+/// \param own    Whether the neighbourhood of a pixel includes the pixel itself. If so,
+///               a single bright ray makes the neighbourhood bright too, and the error
+///               of that ray seems small. If not, the error of a real highlight seems
+///               large.
 [[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state,
                                                  bool own = true) {
     const auto mean = ljus::mean_image<double>(state);

@@ -81,8 +81,8 @@ std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
 }
 
 /// The main() of a program of several ranks. It is run_main() with a body that receives
-/// the command line and its rank, and calls agree() before the work. No rank waits for
-/// a rank that has failed or has only printed --help.
+/// the command line and the rank of the process, and calls agree() before the work. No
+/// rank waits for a rank that has failed or has only printed --help.
 template <typename Body>
 int run_ranks(int argc, char** argv, Body&& body) {
     int threads = 0; // only one thread uses MPI

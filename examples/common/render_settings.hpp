@@ -57,8 +57,8 @@ struct RenderRequest {
     bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    int more_rays = 0;                    ///< Most further rays of a pixel.
-    double disagreement = 0.75; ///< Deviation at which a pixel gets all of them.
+    int more_rays = 0;          ///< Largest number of further rays of a pixel.
+    double disagreement = 0.75; ///< Deviation at which a pixel gets all further rays.
     double exposure = 0;        ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};

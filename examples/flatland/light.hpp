@@ -8,8 +8,8 @@
 
 namespace flatland {
 
-// Sections 3.2.2 and 3.2.3 in the plane: light falls off as 1/r, because the angle that
-// a lamp covers does.
+// Sections 3.2.2 and 3.2.3 in the plane: light falls off as 1/r, like the angle that a
+// lamp covers.
 
 /// The flux of an object, in W: the radiance times 2, which is the integral of the
 /// cosine over the half circle, times the length. In space it is the radiance times pi
@@ -73,7 +73,7 @@ struct LampPoint {
     for (const Object& object : scene.objects) {
         const double own = flux(object);
         if (!(own > 0)) continue;
-        chosen.lamp = &object; // after rounding, the last lamp is chosen
+        chosen.lamp = &object; // rounding may leave a rest for the last lamp
         chosen.probability = own / all;
         left -= own;
         if (left < 0) break;
@@ -113,7 +113,7 @@ struct LampPoint {
     if (chosen.lamp == nullptr) return 0;
     const Vec2& from = vertex.point.position;
     const Vec2 way = chosen.point.position - from;
-    if (!(glm::dot(way, chosen.point.normal) < 0)) return 0; // its back
+    if (!(glm::dot(way, chosen.point.normal) < 0)) return 0; // the back of the lamp
     const Vec2 wi = to_local(vertex.point.normal, glm::normalize(way));
     const double f = evaluate(vertex.object.material, vertex.wo, wi);
     if (f == 0 || occluded(scene, from, chosen.point.position)) return 0;

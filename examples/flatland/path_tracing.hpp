@@ -22,7 +22,7 @@ namespace flatland {
 // [radiance]
 [[nodiscard]] inline double radiance(const Scene& scene, const Ray& ray,
                                      RandomStream& stream, int max_depth = 1000) {
-    PathState path{.ray = ray, .specular = true}; // the eye sees lamps
+    PathState path{.ray = ray, .specular = true}; // true, because the eye sees lamps
     double sum = 0;
     while (path.depth < max_depth) {
         const auto vertex = next_vertex(scene, path, stream);

@@ -37,7 +37,7 @@ inline std::vector<glm::dvec2> directions_around(int n) {
 }
 
 /// The fraction of uniform light that all lobes but deltas send to `wo`, by the
-/// midpoint rule in sin^2(theta) and phi. It is exact for a constant BSDF.
+/// midpoint rule in sin^2(theta) and phi. The rule is exact for a constant BSDF.
 template <ljus::Material M>
 ljus::RgbT<double> albedo_by_quadrature(const M& m,
                                         const ljus::Vec3T<typename M::Scalar>& wo,
@@ -58,9 +58,9 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
     return sum * (std::numbers::pi / n / n); // d(omega) cos = d(sin^2) d(phi)/2
 }
 
-/// The fraction of uniform light that the delta lobes send to `wo`. It is the mean of
-/// their weights over a grid of u.z, on which alone they depend, with an error of a few
-/// 1/steps.
+/// The fraction of uniform light that the delta lobes send to `wo`: the mean weight of
+/// samples over a grid of u.z. The weight depends on no other number, and the error is
+/// a few 1/steps.
 template <ljus::Material M>
 ljus::RgbT<double> specular_albedo(const M& m,
                                    const ljus::Vec3T<typename M::Scalar>& wo,
@@ -230,7 +230,8 @@ void check_symmetry(const M& m) {
     }
 }
 
-/// The message with which check() refuses a material; empty if it accepts it.
+/// The message with which check() refuses a material; empty if check() accepts the
+/// material.
 template <ljus::Material M>
 std::string refusal(const M& m) {
     return refusal([&] { check(m); });

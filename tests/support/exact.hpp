@@ -51,7 +51,8 @@ inline Exact3 abs(const Exact3& a) {
 inline Exact triple(const Exact3& a, const Exact3& b, const Exact3& c) {
     return dot(a, cross(b, c));
 }
-/// The sum of the absolute values of all terms of triple(), which may cancel there.
+/// The sum of the absolute values of the terms of triple(). In triple() these terms may
+/// cancel.
 inline Exact triple_size(const Exact3& a, const Exact3& b, const Exact3& c) {
     return a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) +
            a.z * (b.x * c.y + b.y * c.x);

@@ -19,8 +19,8 @@
 
 namespace ljus_test {
 
-/// The pixels that see only surfaces without a specular part first, and whose
-/// neighbours do so too.
+/// The pixels whose first surfaces, and those of their neighbours, have no specular
+/// part.
 template <ljus::AnyWorld W, std::floating_point T>
 std::vector<bool> matt_pixels(const W& scene, const ljus::CameraT<T>& camera, int width,
                               int height) {

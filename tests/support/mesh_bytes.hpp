@@ -107,7 +107,7 @@ inline double area_of(const MeshData& data) {
     return sum;
 }
 
-/// The message with which a call refuses its argument; "nothing" if it accepts it.
+/// The message with which a call refuses its argument; "nothing" if the call succeeds.
 template <typename Call>
 std::string refusal_of(Call call) {
     try {

@@ -108,7 +108,7 @@ inline std::string scene_tables() {
         page += join({"## ", group.heading, " {#ch_scene_files_", group.name, "}\n\n",
                       group.text, "\n\n"});
         if (!group.shared.empty()) page += member_rows(group.shared) + "\n";
-        std::map<std::string, std::string_view> first; // of the types with these rows
+        std::map<std::string, std::string_view> first; // the first type with these rows
         for (const JsonTable& table : group.tables) {
             if (!table.name.empty())
                 page += join({"### `", table.name, "`",

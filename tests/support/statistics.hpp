@@ -101,7 +101,7 @@ double chi_square(const Counts& counts) {
 
 /// Pearson's chi-square sum over cells with different expected counts.
 struct ChiSquare {
-    double sum = 0; ///< The sum; infinite if a cell is not empty that must be.
+    double sum = 0; ///< The sum; infinite if a cell that must be empty is not.
     int cells = 0;  ///< Number of cells.
 
     /// The limit of the sum; see chi_square_limit().

@@ -18,7 +18,7 @@ namespace ljus_test {
 
 using ljus::Vec3;
 
-/// Checks that every search gives the same as brute force.
+/// Checks that every search gives the same results as brute force.
 template <template <typename> typename Tree>
 void every_search() {
     Draws numbers{5};
@@ -187,7 +187,7 @@ void values() {
     CHECK(std::equal(ids.begin(), ids.end(), copy.point_ids().begin()));
 }
 
-/// Checks that searches by several threads give the same.
+/// Checks that searches by several threads give the same results.
 template <template <typename> typename Tree>
 void many_threads() {
     const auto set = point_sets<float>(20000, 1, 0)[1];

@@ -209,7 +209,7 @@ TEST_CASE("2.11 (1 point) each mirror and each surface of glass uses up depth") 
     CHECK(ljus::is_black(radiance(room, ray, 20)));
     const Ray out{.origin{5, 5, 5}, .direction = normalize(Vec3{5, 0, 1})};
     CHECK(radiance(room, out, 20).x == doctest::Approx(1));
-    // Along the axis of a glass ball under an even sky, 4 % of the light are reflected
+    // Along the axis of a glass ball under an even sky, 4 % of the light is reflected
     // at the first surface, and 0.96^2 passes two surfaces.
     const Room ball{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {.kind = Kind::glass}}},
                     .sky = Rgb{1}};

@@ -147,8 +147,8 @@ TEST_CASE("4.5 (2 points) a shadow ray has less noise than a path by chance") {
     INFO("Expected: one shadow ray to a point of the lamp, not a ray that finds it "
          "by chance.\n"
          "Read: Direct light.");
-    // A path hits the lamp with probability p and then carries 0.5 L, so that its
-    // variance is about 0.25 L^2 p.
+    // A path hits the lamp with probability p and then carries 0.5 L. The variance is
+    // therefore about 0.25 L^2 p.
     const Room room{.objects{floor_of_half, lamp_at(0, 4, Rgb{3})}};
     const double chance = irradiance(0, 4, 3) / (3 * pi);
     const Mean mean = shadow_rays(room, 20000);

@@ -245,8 +245,8 @@ TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounce
         mean.add(double(estimate(PhotonMap(stored), *nearest(room, ray), ray, 0.2f).x));
     }
     CHECK(mean.mean() > 0);
-    // A disc of radius 0.2 on a ball of radius 1 is curved, which is allowed to change
-    // 2 %.
+    // A disc of radius 0.2 on a ball of radius 1 is curved. The curvature may change
+    // the result by 2 %.
     CHECK(mean.agrees(globe.radiance(), 0.02 * globe.radiance()));
 }
 

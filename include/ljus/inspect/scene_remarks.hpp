@@ -473,7 +473,7 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
 
 /// The warnings about a photon mapper: those of scene_remarks(), then those about its
 /// photon passes.
-/// \return One per line, each with a line feed.
+/// \return The warnings, one per line, each with a line feed.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;

@@ -40,7 +40,8 @@ inline constexpr std::size_t file_front_bytes = 40;
 namespace detail {
 
 inline constexpr std::size_t checksum_place = 32;
-inline constexpr std::size_t key_bytes = 8; // behind the header, if there is a key
+inline constexpr std::size_t key_bytes = 8; // size of the key, which follows the header
+                                            // of some formats
 
 // The largest size of a file with `most` entries; the largest size_t if that overflows.
 inline std::size_t file_limit(std::size_t most, std::size_t bytes_of_one) noexcept {

@@ -128,7 +128,7 @@ public:
         }
         if (file_ == nullptr) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        struct ::stat older = {}; // no more users may read the new file
+        struct ::stat older = {}; // its permissions, for the new file
         if (::stat(path.c_str(), &older) == 0)
             (void)::fchmod(::fileno(file_), older.st_mode & 07777);
 #endif

@@ -34,7 +34,7 @@ template <std::floating_point T = float>
 }
 
 /// Reads the mesh files that a scene file names: load_json("scene.json", MeshFiles{}).
-/// A mesh has the material that the scene file gives it, or else those of the mesh
+/// If the scene file gives a mesh no material, the mesh has the materials of the mesh
 /// file.
 template <std::floating_point T>
 struct MeshFilesT {

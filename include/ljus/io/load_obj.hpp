@@ -145,7 +145,7 @@ struct MaterialReader {
                 note_at(is.picture.at,
                         "map_Kd is multiplied by Kd, which is 0; 1 is used.");
         }
-        // Some programs write Tr 1 for opaque, beside a picture.
+        // Some programs write Tr 1 for an opaque material with a picture.
         if (pictured && !has_dissolve && is.dissolve == 0) {
             is.dissolve = 1;
             note_at(is.picture.at, "map_Kd is on a surface that Tr 1 makes wholly "

@@ -30,8 +30,8 @@ struct StlText {
     [[nodiscard]] std::uint32_t word(std::size_t at) const {
         return static_cast<std::uint32_t>(unsigned_value(text.substr(at, 4)));
     }
-    // Whether the file is a text. Some binary files begin with "solid" as well, but a
-    // byte of their header is 0, at least one of the number of triangles.
+    // Whether the file is a text. Some binary files begin with "solid" as well, but
+    // some byte of their header is 0: at least one byte of the number of triangles.
     [[nodiscard]] bool is_text() const {
         const std::string_view plain = plain_text(text, file);
         const std::size_t begin = plain.find_first_not_of(" \t\r\n");
@@ -137,8 +137,8 @@ struct StlReader {
 } // namespace detail
 
 /// Reads a mesh from the bytes of an STL file, text or binary. Corners at the same
-/// position become one vertex. The normals of the file are not used. Where one points
-/// to the other side of its triangle, the report says so.
+/// position become one vertex. The normals of the file are not used. The report says
+/// where a normal points to the other side of its triangle.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().

@@ -106,7 +106,8 @@ struct MeshCameraT {
 /// The content of a mesh file.
 template <std::floating_point T>
 struct LoadedMeshT {
-    std::vector<MeshPartT<T>> parts{}; ///< One per material, in order of first use.
+    std::vector<MeshPartT<T>> parts{}; ///< The parts, one per material, in order of
+                                       ///< first use.
     MeshReport report{};               ///< The problems of the file, and counts.
     /// The pictures of the materials that could be read, by name: colours, alpha and
     /// normals.
@@ -139,7 +140,8 @@ using MeshMetalDetailed = MeshDetailedT<Glossy>; ///< A metal surface, in float.
 
 namespace detail {
 
-// The pixels of a material's picture; nullptr if it has none or could not be read.
+// The pixels of a material's picture; nullptr if there is no picture, or it could not
+// be read.
 template <std::floating_point T>
 const ImageT<T>* find_picture(const LoadedMeshT<T>& loaded, const MeshImage& image) {
     const auto found = loaded.pictures.find(image.name);

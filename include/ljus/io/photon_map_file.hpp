@@ -116,8 +116,8 @@ arrays_of(const PhotonMap& map) noexcept {
     return all;
 }
 
-// Whether the photons of a block are valid for make_photon_map(), and unused places
-// after the last photon are marked by NaN.
+// Whether the photons of a block are valid for make_photon_map(), and whether unused
+// places after the last photon are marked by NaN.
 [[nodiscard]] inline bool is_whole_block(const PhotonMap& map, std::size_t block) {
     const Lanes3T<float>& points = map.tree.blocks()[block];
     const RecordBlockT<float>& records = map.records.blocks()[block];

@@ -313,7 +313,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
     });
-    const int begun = rule.two_stage ? 1 : 0; // that batch
+    const int begun = rule.two_stage ? 1 : 0; // the batch that begins the second stage
     const int most_batches = 1 + rule.batches - begun;
     bool any = false;
     for (const std::size_t i : order) {
@@ -550,7 +550,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
                 for (auto& block : blocks) block.rays = 0;
             }
             result.complete = trace_round();
-            if (round + 1 < rounds) update(0); // else a band still needs the old ones
+            if (round + 1 < rounds) update(0); // a later band needs the old statistics
         }
         // [rounds]
         const int top = blocks[0].y / rule.block;

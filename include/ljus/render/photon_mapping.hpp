@@ -130,7 +130,7 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
 }
 
 /// The number of photons of a kind.
-/// \param photons  Of the general pass.
+/// \param photons  The photons of the general pass.
 template <std::floating_point T>
 [[nodiscard]] long long count_of(const PhotonPartsT<T>& photons, PhotonKind kind) {
     long long count = 0;
@@ -159,7 +159,7 @@ template <std::floating_point T>
 
 /// Whether direct photons outnumber indirect ones two to one, as they do in the open.
 /// Irradiance points at indirect photons alone would then be too few.
-/// \param photons  Of the general pass.
+/// \param photons  The photons of the general pass.
 template <std::floating_point T>
 [[nodiscard]] bool lands_once(const PhotonPartsT<T>& photons) {
     return count_of(photons, PhotonKind::direct) >
@@ -313,7 +313,7 @@ class PhotonMapper {
 
 public:
     using Scalar = typename W::Scalar; ///< The precision.
-    /// The random stream that render() passes to it.
+    /// The random stream that render() passes to the mapper.
     using Stream = typename detail::StreamAmong<X...>::Type;
     /// The batch of samples whose caustics are estimated together.
     using Batch = detail::CausticsBatch<Scalar>;
@@ -631,7 +631,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context,
 void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
                const RgbT<T>& before, T surface, Context& context, const Sum& add) {
     const W& world = mapper.world();
-    if (!meets_fog(world, path.ray) || is_black(before)) return; // fly() divides
+    if (!meets_fog(world, path.ray) || is_black(before)) return; // fly() divides by it
     FogSegmentT<T> segment{path.ray, before};
     segment.ray.t_max = surface;
     if (world.light_count() > 0) {
@@ -760,7 +760,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         branches.push_back(*other);
                         return true;
                     }
-                // One branch; after a lookup, by mirrors and glass only.
+                // Follows one branch; after a lookup, by mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) && !through &&

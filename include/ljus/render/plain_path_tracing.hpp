@@ -78,7 +78,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
             if (has(lobes(m), Lobes::non_specular) && world.light_count() > 0)
                 sum += throughput * lights *
                        direct_light(world, light, vertex, m, u, MisT<T>{}, counts);
-            // One ray on.
+            // The next ray of the path.
             const auto next =
                 sample(m, vertex.wo, next_3d<T>(stream), Transport::radiance);
             if (!next) return false;

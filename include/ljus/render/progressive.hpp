@@ -25,7 +25,7 @@ namespace ljus {
 /// \{
 
 /// The mean of many passes: the plain twin of run_progressive(). Pass i has the radius
-/// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$; After n passes
+/// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$. After n passes
 /// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and its squared
 /// bias to \f$ n^{-2(1-\alpha)} \f$.
 /// \param passes  n, at least 1.

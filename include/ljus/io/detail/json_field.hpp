@@ -52,8 +52,9 @@ struct JsonField {
     return path.append(name);
 }
 
-// The path of a value within `whole`, whose own path is `path`; nothing if it is not
-// there. Paths are searched for when a message needs one, not kept while reading.
+// The path of a value within `whole`, whose own path is `path`; nothing if the value is
+// not there. Paths are searched for when a message needs one; they are not kept while
+// reading.
 [[nodiscard]] inline std::optional<std::string>
 path_within(const nlohmann::json& whole, const nlohmann::json& value,
             const std::string& path = "") {
@@ -92,7 +93,7 @@ path_within(const nlohmann::json& whole, const nlohmann::json& value,
                       .append(right));
 }
 
-// Throws an error about a field that gives the text of another exception as the reason.
+// Throws an error about a field. The reason is the text of another exception.
 [[noreturn]] inline void refuse_for(const JsonField& field,
                                     const std::exception& error) {
     std::string why = std::string("cannot be used: ").append(error.what());

@@ -182,7 +182,7 @@ public:
                 if (found)
                     check_value(*found, row.value);
                 else if (!row.optional)
-                    (void)member(field_, row.name); // throws
+                    (void)member(field_, row.name); // throws: the member is missing
             }
     }
 

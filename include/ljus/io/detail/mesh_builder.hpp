@@ -362,7 +362,7 @@ private:
                                           // position
     std::vector<std::uint32_t> latest_{}; // the last vertex at each position
     std::vector<MeshCorner> face_{};      // corners of the face that is read
-    std::array<bool, 3> missing_{};       // elements of its corners
+    std::array<bool, 3> missing_{};       // which elements of a corner do not exist
     std::vector<glm::dvec3> face_positions_{};
 };
 
