@@ -99,7 +99,7 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
                   RgbT<T>& sum) {
     const W& world = tracer.world();
     const auto vertex = next_vertex(world, path, context.stream);
-    const RgbT<T> throughput = path.throughput; // at this vertex
+    const RgbT<T> throughput = path.throughput; // of this vertex
     const RadianceSum add{sum, throughput, context.log};
     if (!vertex) return add("sky", "L", sky_radiance(world, path.ray.direction));
     log_arrival(context.log, vertex->point.position);
