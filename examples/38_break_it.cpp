@@ -33,7 +33,7 @@ std::optional<Vec3> wrong_refract(const Vec3& direction, const Vec3& normal,
 }
 // [wrong]
 
-/// The colour of the floor of a pool, which has squares.
+/// The colour of the floor of a pool. The floor has squares.
 Rgb floor_color(const Vec3& place) {
     const int squares = int(std::floor(place.x)) + int(std::floor(place.z));
     return (squares % 2 == 0 ? 0.75f : 0.25f) * Rgb{0.25f, 0.6f, 0.65f};

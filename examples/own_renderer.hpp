@@ -9,7 +9,7 @@ namespace reader {
 
 // [renderer]
 /// Shows how open each surface is: the fraction of the directions above it, weighted by
-/// the cosine, in which no surface lies within a distance.
+/// the cosine, in which no surface lies within a given distance.
 template <typename World>
 class AmbientOcclusion {
 public:

@@ -196,7 +196,7 @@ public:
     /// empty. The name may then say what the text is, as in "--checkpoint FILE".
     void add(const std::string& name, std::string& value, const std::string& help,
              const std::vector<std::string>& words = {});
-    /// Adds an option whose values are all words up to the next option.
+    /// Adds an option that takes all words up to the next option as its values.
     void add(const std::string& name, std::vector<std::string>& values,
              const std::string& help);
     /// Adds a switch, which is true if it is given.

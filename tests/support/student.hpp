@@ -19,8 +19,8 @@ namespace ljus_test {
 /// `t`, on either side.
 /// \param freedom  Degrees of freedom, above 0; more than 1000 count as 1000.
 inline double student_tail(double t, double freedom) {
-    // With t = sqrt(freedom) tan x the density of x is proportional to cos^(freedom -
-    // 1).
+    // With t = sqrt(freedom) tan x the density of x is proportional to the power
+    // freedom - 1 of cos x.
     const double n = std::min(freedom, 1000.0), right = std::numbers::pi / 2;
     const double part =
         integrate(std::atan(std::abs(t) / std::sqrt(n)), right, 64,

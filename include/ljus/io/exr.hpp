@@ -136,8 +136,8 @@ public:
         throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
     }
 
-    // Refuses a part whose primaries are not about those of sRGB. The white point is
-    // not compared. A part that names no primaries has those of sRGB.
+    // Refuses a part whose primaries are not approximately those of sRGB. The white
+    // point is not compared. A part that names no primaries has those of sRGB.
     void require_srgb(int part) const {
         exr_attr_chromaticities_t is{};
         if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=

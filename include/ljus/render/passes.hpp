@@ -128,7 +128,8 @@ namespace detail {
 }
 
 /// The reason why a PhotonMapper cannot render a scene with fog with these settings.
-/// \return A sentence without a full stop; empty if the mapper can, or without fog.
+/// \return A sentence without a full stop; empty if there is no fog, or if the mapper
+///         can render the scene.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string
 refused_in_fog(const W& world, const PhotonMappingSettings& settings) {

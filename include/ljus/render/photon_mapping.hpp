@@ -545,7 +545,8 @@ template <typename Mapper, std::floating_point T, Material M>
 /// Adds the light that a diffuse surface reflects along a camera path, except light
 /// that the path's next ray finds. Direct light comes by shadow rays, and caustics come
 /// from the caustics map. Where an indirect ray ends, the general map takes the place
-/// of the shadow rays; irradiance points take the place of both.
+/// of the shadow rays; irradiance points take the place of the shadow rays and of the
+/// caustics map.
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.

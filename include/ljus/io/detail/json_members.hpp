@@ -252,7 +252,7 @@ struct JsonTable {
     std::string_view also; // its name in C++ if that differs
     std::string_view text;
     JsonMembers members;
-    JsonNames one_of{}; // members of which it has exactly one
+    JsonNames one_of{}; // members of which an object has exactly one
 };
 
 // The table with this name; null if there is none.

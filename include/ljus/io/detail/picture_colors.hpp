@@ -24,7 +24,8 @@ class ColorProfile {
 public:
     explicit ColorProfile(const Bytes& bytes) : bytes_(bytes) {}
 
-    // Whether the colours are about those of sRGB. A gamma of 2.2 counts as sRGB.
+    // Whether the colours are approximately those of sRGB. A gamma of 2.2 counts as
+    // sRGB.
     [[nodiscard]] bool is_srgb() const {
         if (!stands_at(bytes_, 36, "acsp")) return false;
         if (stands_at(bytes_, 16, "GRAY")) return has_srgb_curve("kTRC");

@@ -9,9 +9,9 @@
 
 namespace ljus::detail {
 
-// Whether primaries, given as (x, y) of red, green and blue, are about those of sRGB.
-// The usual primaries of HDR files differ from these by 0.01. The white point is not
-// compared.
+// Whether primaries, given as (x, y) of red, green and blue, are approximately those of
+// sRGB. The usual primaries of HDR files differ from these by 0.01. The white point is
+// not compared.
 template <typename Numbers>
 [[nodiscard]] bool are_srgb_primaries(const Numbers& numbers) {
     constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
