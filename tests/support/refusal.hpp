@@ -11,7 +11,7 @@
 
 namespace ljus_test {
 
-/// The message with which a call is refused; empty if it succeeds.
+/// The message with which a call is refused; empty if the call succeeds.
 template <std::invocable Call>
 std::string refusal(Call call) {
     try {

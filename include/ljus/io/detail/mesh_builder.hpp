@@ -96,7 +96,7 @@ struct MeshFacesT {
     // seam of the texture coordinates makes no edge.
     void smooth() {
         MeshDataT<T> seamless{.positions = data.positions};
-        std::unordered_map<std::uint32_t, std::uint32_t> first; // vertices
+        std::unordered_map<std::uint32_t, std::uint32_t> first; // by position
         std::vector<std::uint32_t> of;
         for (const std::uint32_t position : positions) {
             const auto vertex = static_cast<std::uint32_t>(of.size());
