@@ -84,8 +84,8 @@ template <std::floating_point T, std::floating_point U>
 /// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon), after
 /// \cite rousselle2011. Like the eye, the metric responds to relative differences.
 /// *Trap*: values with different epsilons cannot be compared, nor values of tools that
-/// divide by (r + epsilon)^2. State the epsilon. The epsilon is a squared radiance above
-/// 0; darker pixels than its root count less.
+/// divide by (r + epsilon)^2. State the epsilon. It is a squared radiance above 0, and
+/// pixels darker than its root count less.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
