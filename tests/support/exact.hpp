@@ -64,9 +64,9 @@ inline double to_double(const Exact& x) {
     return x.convert_to<double>();
 }
 
-/// \name Exact arithmetic with integers, many times faster Every float is an integer
-/// times a power of two. With the smallest such power as the unit, sums and products of
-/// integers are exact.
+/// \name Exact arithmetic with integers, many times faster
+/// Every float is an integer times a power of two. With the smallest such power as the
+/// unit, sums and products of integers are exact.
 /// \{
 
 using Integer = boost::multiprecision::cpp_int;

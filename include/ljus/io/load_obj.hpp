@@ -24,10 +24,10 @@ namespace ljus {
 /// \brief OBJ files with their MTL files, PLY, STL and glTF. Chapter:
 /// \ref ch_triangle_files.
 ///
-/// const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
-/// std::fputs(to_text(teapot.report).c_str(), stderr); add_meshes(scene, teapot); //
-/// colours of the file scene.add(teapot.parts[0].mesh, scene.add(Glass{})); // or
-/// another colour
+///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
+///     std::fputs(to_text(teapot.report).c_str(), stderr);
+///     add_meshes(scene, teapot); // in the colours of the file
+///     scene.add(teapot.parts[0].mesh, scene.add(Glass{})); // or one part, in glass
 /// \{
 
 namespace detail {

@@ -560,7 +560,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
         detail::set_pixels(result, part, sums, rule.two_stage ? rule.first : 0);
         sums.drop(blocks, columns * std::size_t(std::max(last - around - top, 0)));
     }
-    if (result.complete) // even if fewer rays were enough
+    if (result.complete) // reports the end, even if fewer rays were enough
         (void)picture.progress(static_cast<long long>(allowed),
                                static_cast<long long>(allowed));
     result.estimate = error / pixels;

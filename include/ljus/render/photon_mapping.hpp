@@ -141,7 +141,7 @@ template <std::floating_point T>
     return count;
 }
 
-/// Removes the photons of all kinds but some.
+/// Removes the photons of all kinds that are not in `kinds`.
 template <std::floating_point T>
 void keep_kinds(PhotonPartsT<T>& photons, PhotonKinds kinds) {
     for (auto& part : photons)
