@@ -1,15 +1,17 @@
-// The library ljus::core: instantiates the templates listed in ljus/core.hpp. Without CMake:
+// The library ljus::core: instantiates the templates listed in ljus/core.hpp. To
+// compile it without CMake:
 //
 //     g++ -std=c++20 -O3 -ffp-contract=off -fopenmp -Iinclude -c core/core.cpp
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -DLJUS_CORE app.cpp core.o
-#define LJUS_CORE_EXTERN // neither extern nor inline: defined here
+#define LJUS_CORE_EXTERN // the templates are defined here
 #define LJUS_CORE_INLINE
 
-// The searches are compiled for SSE2, AVX2 and AVX-512, by compilers that can do this for
-// templates. A sanitizer would be called before it is ready, when one of them is chosen.
-// Without -ffp-contract=off, the last two round a product and a sum once instead of twice,
-// and results depend on the processor.
-#include <cstddef> // says which C library it is
+// The searches are compiled for SSE2, AVX2 and AVX-512, by compilers that can do so for
+// templates. With a sanitizer they are compiled once, because the choice at run time
+// would be made before the sanitizer is ready. Without -ffp-contract=off the results
+// depend on the processor: the AVX2 and AVX-512 versions round a product and a sum once
+// instead of twice.
+#include <cstddef> // defines __GLIBC__ if glibc is used
 #if defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) &&                      \
     defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) &&     \
     !defined(__SANITIZE_THREAD__)

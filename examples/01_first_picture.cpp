@@ -1,5 +1,6 @@
 /// \file 01_first_picture.cpp
-/// \brief The program of the README: a glass ball and its caustic, in under 20 lines.
+/// \brief The program of the README: a glass ball and its caustic, in fewer than 20
+/// lines.
 // figures: first_picture
 // runs in the folder of its picture
 

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 9 --rays 1 --frames 3 --photons 1000
 /// \file 01_flight.cpp
-/// \brief The frames of a film: the camera flies once around a ball of glass, and the
-/// photons stay where they are.
+/// \brief Renders the frames of a film. The camera flies once around a ball of glass;
+/// all frames use the same photons.
 ///
 ///     01_flight --out film --frames 240
 ///     ffmpeg -i film/flight-%04d.png film.mp4     # or any program that joins them
@@ -20,7 +20,7 @@ using namespace ljus;
 
 namespace {
 
-/// A floor with a ring of balls around one of glass, under a lamp and a dim ceiling.
+/// A floor with a ring of balls around a ball of glass, under a lamp and a dim ceiling.
 auto ring_of_balls() {
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>> scene;
     const auto floor = scene.add(Lambertian{.albedo{0.6f, 0.58f, 0.55f}});
@@ -46,8 +46,8 @@ auto ring_of_balls() {
     return World(std::move(scene));
 }
 
-/// The camera at a time in [0, 1): it circles once, rising and sinking, and ends where
-/// it began.
+/// The camera at a time in [0, 1). It rises and sinks on its way around the balls, and
+/// at time 1 would be where it began.
 Camera camera_at(float moment) {
     const float turn = 2 * std::numbers::pi_v<float> * moment;
     return look_at(
@@ -64,7 +64,7 @@ void paste(Image& sheet, const Image& frame, int column, int row) {
                 pixel(frame, x, y);
 }
 
-/// "flight-0007.png".
+/// The name of a frame, such as "flight-0007.png".
 std::string name_of_frame(int number) {
     char name[32];
     std::snprintf(name, sizeof name, "flight-%04d.png", number);
@@ -94,7 +94,8 @@ int main(int argc, char** argv) {
             .caustics_estimate{.radius = options.pick(0.2f, 0.07f, 0.02f)}};
         const auto world = ring_of_balls();
 
-        const PhotonMapper mapper(world, settings); // no photon depends on the camera
+        const PhotonMapper mapper(world, settings); // photons do not depend on the
+                                                    // camera
         const int columns = std::min(frames, 4), rows = std::min(2, (frames + 3) / 4);
         Image sheet = make_image(columns * options.width, rows * options.height);
         RenderSettings picture = examples::picture_settings(options);

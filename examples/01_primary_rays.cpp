@@ -23,7 +23,7 @@ constexpr int columns = 6, rows = 4;
 const Camera camera =
     look_at({.position{-4.2f, 1.6f, 0}, .target{0.4f, 0.7f, 0}, .vfov_degrees = 30});
 
-/// The scene that it sees.
+/// The scene that the first camera sees.
 const Sphere ball{.center{0.3f, 0.75f, 0}, .radius = 0.75f};
 const Quad ground{.corner{-1.6f, 0, 1.7f}, .edge_u{4, 0, 0}, .edge_v{0, 0, -3.4f}};
 
@@ -32,7 +32,7 @@ constexpr int width = 720, height = 380;
 const Camera onlooker = look_at(
     {.position{-5.2f, 4.0f, 8.5f}, .target{-0.75f, 0.65f, 0}, .vfov_degrees = 25});
 
-/// A point of the scene in the drawing, whose y points up.
+/// Projects a point of the scene into the drawing, in which y points up.
 Point seen(const Vec3& point) {
     const Vec2 at = project(onlooker, point, width, height).value();
     return {double(at.x), height - double(at.y)};
@@ -55,7 +55,7 @@ void draw_ray(Drawing& drawing, const Vec2& pixel, const Pen& pen) {
     if (hit) draw_dot(drawing, end, 2.5, pen.color);
 }
 
-/// The outline of the ball: a circle around the line to the second camera.
+/// The outline of the ball: the circle that the second camera sees as its edge.
 std::vector<Point> outline() {
     const Vec3 way = onlooker.position - ball.center;
     const float near = ball.radius * ball.radius / glm::dot(way, way);
@@ -92,7 +92,7 @@ int main() {
             draw_ray(drawing, {float(x) + 0.5f, float(y) + 0.5f},
                      {.color = "#80808070", .width = 1});
 
-    // The pixels.
+    // The grid of pixels.
     const Pen grid{.color = colors::blue, .width = 1.2};
     draw_area(
         drawing,
@@ -103,7 +103,7 @@ int main() {
     for (int y = 0; y <= rows; ++y)
         draw_line(drawing, {corner(0, y), corner(columns, y)}, grid);
 
-    // Five rays through one of them, where a stratified pattern has its points.
+    // Five rays through one pixel, at the points of a stratified pattern.
     draw_area(drawing, {corner(2, 1), corner(3, 1), corner(3, 2), corner(2, 2)},
               colors::red);
     const Pattern pattern = make_pattern(Sampling::multi_jittered, 5);

@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --rays 4
 /// \file 02_radiance.cpp
-/// \brief A lamp leaves a white wall: the wall becomes darker, the lamp does not.
+/// \brief A lamp moves away from a white wall. The wall becomes darker, but the
+/// radiance of the lamp does not change.
 
 #include <string>
 
@@ -12,9 +13,9 @@ using namespace ljus;
 
 namespace {
 
-constexpr double radius = 0.6;  // of the lamp, m
-constexpr double emitted = 0.9; // its radiance, W/(m^2 sr)
-constexpr double albedo = 0.8;  // of the wall
+constexpr double radius = 0.6;  // radius of the lamp, m
+constexpr double emitted = 0.9; // radiance of the lamp, W/(m^2 sr)
+constexpr double albedo = 0.8;  // albedo of the wall
 const Vec3 eye{8, 0.6f, 5};     // the camera stays where it is
 
 /// A glowing ball in front of a wall.
@@ -28,7 +29,7 @@ auto lamp_before_wall(float distance) {
     return World(std::move(scene));
 }
 
-/// What one pixel measures, a hundredth of a degree wide.
+/// The radiance that one pixel of a hundredth of a degree measures.
 template <typename Renderer>
 double radiance_seen(const Renderer& renderer, const Vec3& target) {
     const Camera camera =
@@ -63,8 +64,9 @@ int main(int argc, char** argv) {
             const auto picture = examples::rendered(name, tracer, camera, options);
             save_png(picture.image, options.path(name + ".png"));
 
-            // A ball whose rim is at the angle a from its centre gives E = pi L sin^2
-            // a; the wall sends albedo E / pi of it back into each direction.
+            // If the wall sees the ball within an angle a from its centre, the ball
+            // gives the irradiance E = pi L sin^2 a. The wall reflects the radiance
+            // albedo E / pi.
             const double sine = radius / double(distance);
             table.rows.push_back({text(double(distance)),
                                   text(radiance_seen(tracer, {0, 0, distance}), "%.4f"),

@@ -1,7 +1,7 @@
 // smoke: --quality draft
 /// \file 03_monte_carlo.cpp
-/// \brief An integral as the mean of random numbers, and how wrong that mean is: what
-/// glass reflects under an even sky.
+/// \brief Computes an integral as the mean of random numbers, with its error. The
+/// integral is the light that glass reflects under an even sky.
 
 #include <cmath>
 #include <cstdio>
@@ -17,17 +17,19 @@ using namespace ljus;
 
 namespace {
 
-constexpr double r0 = schlick_r0(1.0, 1.5);  // of glass: 0.04
+constexpr double r0 = schlick_r0(1.0, 1.5);  // glass at normal incidence: 0.04
 constexpr double truth = r0 + (1 - r0) / 21; // the integral of f from 0 to 1
 
-/// The reflectance of glass at the cosine c, times the amount of light from there.
+/// The integrand f: the reflectance of glass at an angle with cosine c, times the
+/// density of the light from there.
 // [integrand]
 double f(double c) {
     return 2 * c * schlick(r0, c);
 }
 // [integrand]
 
-/// Densities, each with a way to draw a cosine from a number u in [0, 1).
+/// Densities of the cosine, each with a function that draws a cosine from a number u in
+/// [0, 1).
 // [ways]
 struct Uniform {
     static double sample(double u) { return u; }
@@ -43,7 +45,7 @@ struct Grazing {
 };
 // [ways]
 
-/// The mean of f/p over n samples.
+/// The mean of f/p over n samples, where p is the density.
 // [estimator]
 template <typename Way>
 Estimate integrate(const Way& way, int n, RandomStream& stream) {
@@ -56,7 +58,8 @@ Estimate integrate(const Way& way, int n, RandomStream& stream) {
 }
 // [estimator]
 
-/// The running mean of one run, with two standard errors to each side.
+/// The mean of one run after more and more samples, with two standard errors to each
+/// side.
 examples::Plot running_mean(int most) {
     examples::Plot plot{.name = "monte_carlo-running",
                         .columns = {"samples n", "estimate", "+ 2 standard errors",

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24
 /// \file 05_ray.cpp
-/// \brief The start of a shadow ray: at a fixed distance from the surface, or at one
-/// that follows from the error of the point. One room in five sizes.
+/// \brief Starts shadow rays at a fixed distance from the surface, or at a distance
+/// that follows from the rounding error of the point, in one room of five sizes.
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@ using Point = Vec3T<double>;
 
 namespace {
 
-const Point middle{10, 10, -10}; // of a room of size 1: far from the origin
+const Point middle{10, 10, -10}; // middle of a room of size 1, far from the origin
 
-/// A point of the room of this size.
+/// A point of the room, for a room of this size.
 Vec3 at(double size, const Point& place) {
     return Vec3(size * (middle + place));
 }
 
-/// A ball on a floor, and beside it a lid of 1/800 its width.
+/// A ball on a floor, and beside it a thin lid.
 auto make_room(double size) {
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian>> scene;
     const auto red = scene.add(Lambertian{.albedo{0.8f, 0.3f, 0.25f}});
@@ -40,9 +40,10 @@ auto make_room(double size) {
     return World(std::move(scene));
 }
 
-/// The ray from a hit of a ray at t to a lamp.
-/// \param fixed  The distance at which it starts, from O + tD as in the report's
-///               program; 0: a distance that follows from the error of the point.
+/// The shadow ray to a lamp, from the point that a ray hits at t.
+/// \param fixed  The distance from O + tD at which the shadow ray starts, as in the
+///               report's program; 0: a distance that follows from the rounding error
+///               of the point.
 Ray shadow_ray(const Ray& ray, float t, const SurfacePoint& point, const Vec3& lamp,
                float fixed) {
     if (fixed == 0) return spawn_ray_to(point, SurfacePoint{.position = lamp});
@@ -50,8 +51,8 @@ Ray shadow_ray(const Ray& ray, float t, const SurfacePoint& point, const Vec3& l
     return {point_at(ray, t), way / glm::length(way), fixed, glm::length(way)};
 }
 
-/// The light where a ray hits, from a lamp above the room and an orange one below the
-/// lid.
+/// The light at the first hit of a ray, from a lamp above the room and an orange lamp
+/// below the lid.
 template <typename Room>
 Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
     const auto hit = closest_hit(room, ray);
@@ -63,7 +64,7 @@ Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
         if (occluded(room, shadow)) return;
         const Vec3 way = (lamp - here.point.position) / float(size);
         const float squared = glm::dot(way, way);
-        // Both sides are lit, so that light leaking through the lid can be seen.
+        // Both sides are lit, so that light that leaks through the lid is visible.
         const float cosine = glm::dot(here.point.normal, way) / std::sqrt(squared);
         light += power * std::abs(cosine) / squared;
     };
@@ -73,7 +74,7 @@ Rgb seen(const Room& room, const Ray& ray, double size, float fixed) {
                                        [](const Lambertian& m) { return m.albedo; });
 }
 
-/// The room of a size.
+/// The room in one size.
 Image picture(int width, double size, float fixed) {
     const int height = std::max(1, 2 * width / 3);
     const auto room = make_room(size);
@@ -96,7 +97,7 @@ Image picture(int width, double size, float fixed) {
 
 } // namespace
 
-/// Makes the pictures of both kinds.
+/// Makes pictures with both kinds of shadow rays.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 5, the ray: one room in five sizes.");

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 32
 /// \file 06_sphere.cpp
-/// \brief One ball through a telescope, from further and further away: by the report's
-/// formula, and by a robust one.
+/// \brief Shows a ball through a telescope from larger and larger distances, by the
+/// report's formula and by a robust one.
 
 #include <algorithm>
 #include <string>
@@ -15,8 +15,9 @@ using Point = Vec3T<double>;
 
 namespace {
 
-/// The unit sphere from `distance` radii away; it always fills the picture.
-/// \param meet  Where a ray meets the sphere: t, or nothing.
+/// A picture of the unit sphere from a distance in radii. The sphere always fills the
+/// picture.
+/// \param meet  Returns the distance t at which a ray meets the sphere, or nothing.
 template <typename Meet>
 Image telescope(int size, double distance, Meet meet) {
     const Point eye = distance * glm::normalize(Point{1, 0.7, 0.8});
@@ -31,7 +32,7 @@ Image telescope(int size, double distance, Meet meet) {
             const double across = 2.4 * ((x + 0.5) / size - 0.5);
             const double along = 2.4 * (0.5 - (y + 0.5) / size);
             const Point aim = across * right + along * up; // in the plane of the centre
-            // In double up to here, so that only the ray itself is rounded to float.
+            // Computed in double, so that only the ray itself is rounded to float.
             const Ray ray{.origin = Vec3(eye),
                           .direction = Vec3(glm::normalize(aim - eye))};
             pixel(image, x, y) = {0.05f, 0.06f, 0.08f};

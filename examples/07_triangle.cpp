@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24
 /// \file 07_triangle.cpp
-/// \brief A tetrahedron by the report's formula, which lacks the triangle's edges, and
-/// with the conditions on u and v.
+/// \brief Shows a tetrahedron by the report's formula, which does not test the edges of
+/// a triangle, and by the full test with conditions on u and v.
 
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ using Point = Vec3T<double>;
 
 namespace {
 
-/// Section 3.1.5 to the letter: t, and t >= 0. This is a plane.
+/// The formula of Section 3.1.5 as printed: t, if t >= 0. It intersects a plane.
 std::optional<float> as_printed(const Ray& ray, const Triangle& triangle) {
     const Vec3 e1 = triangle.v2 - triangle.v1, e2 = triangle.v3 - triangle.v1;
     const Vec3 p = glm::cross(ray.direction, e2);
@@ -33,8 +33,8 @@ std::optional<float> with_conditions(const Ray& ray, const Triangle& triangle) {
     return hit->t;
 }
 
-/// A tetrahedron, each face in a colour of its own.
-/// \param meet  Where a ray meets a triangle: t, or nothing.
+/// A picture of a tetrahedron, each face in its own colour.
+/// \param meet  Returns the distance t at which a ray meets a triangle, or nothing.
 template <typename Meet>
 Image tetrahedron(int size, Meet meet) {
     const Vec3 a{-1, -0.6f, -0.3f}, b{0.1f, -0.6f, 0.9f}, c{1, -0.6f, -0.5f},
@@ -54,7 +54,7 @@ Image tetrahedron(int size, Meet meet) {
             for (std::size_t k = 0; k < faces.size(); ++k) {
                 const auto t = meet(ray, faces[k]);
                 if (!t || *t >= ray.t_max) continue;
-                ray.t_max = *t; // from here on only nearer ones count
+                ray.t_max = *t; // only nearer hits count now
                 const float facing =
                     std::abs(glm::dot(normal(faces[k]), ray.direction));
                 pixel(image, x, y) = (0.3f + 0.7f * facing) * colors[k];

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 32 --height 32
 /// \file 08_bvh.cpp
-/// \brief Bounding volume hierarchies over many triangles, and the number of nodes that
-/// each pixel's ray visits.
+/// \brief Shows the number of nodes of a bounding volume hierarchy that the ray of each
+/// pixel visits.
 
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ using namespace ljus;
 
 namespace {
 
-/// 104 small balls of 96 triangles.
+/// Makes 104 small balls of 96 triangles each.
 std::vector<Triangle> balls() {
     std::vector<Triangle> triangles;
     RandomStream stream = random_stream(3, Pass::user, 0, 0);
@@ -45,7 +45,7 @@ std::vector<Triangle> balls() {
 }
 
 /// Finds the first triangle that a ray hits, and counts the nodes on the way to it.
-/// \param triangle_at  The triangle of a slot; the tree orders them in its own way.
+/// \param triangle_at  Returns the triangle of a slot, in the order of the tree.
 template <typename Tree, typename TriangleAt>
 int nodes_visited(const Tree& tree, const Ray& ray, TriangleAt triangle_at) {
     NearestHit nearest;
@@ -66,7 +66,7 @@ Rgb heat(float x) {
     return {ramp(3), ramp(2), ramp(1)};
 }
 
-/// A picture of `count(ray)`, red from 60 on; prints the mean.
+/// A picture of the numbers count(ray), red from 60 on. Also prints their mean.
 template <typename Count>
 void save_heat(const std::string& name, const examples::Options& options, Count count) {
     const int width = options.width, height = options.height;

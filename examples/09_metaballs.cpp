@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 18 --rays 1
 /// \file 09_metaballs.cpp
-/// \brief Two metaballs that come closer and merge; and blobs of glass in front of
-/// them.
+/// \brief Renders two metaballs that come closer and merge, and blobs of glass in front
+/// of them.
 
 #include <string>
 
@@ -13,8 +13,8 @@ using namespace ljus;
 
 namespace {
 
-/// Two blobs at this distance in a lit corner, with or without three of glass before
-/// them.
+/// Two blobs at this distance in a lit corner, with or without three blobs of glass in
+/// front of them.
 // [scene]
 auto merging(float distance, bool with_glass) {
     Scene<Shapes<Metaballs, Quad, Sphere>, Materials<Lambertian, Glass>> scene;

@@ -10,7 +10,7 @@ using namespace ljus;
 
 namespace {
 
-/// A room with a mirror at either end, a ball, and a lamp at the ceiling.
+/// A room with a mirror at each end, a ball, and a lamp at the ceiling.
 auto hall() {
     const Mirror mirror{.reflectance{0.86f, 0.95f, 0.9f}};
     const Lambertian grey{.albedo = Rgb{0.6f}};

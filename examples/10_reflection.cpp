@@ -31,7 +31,8 @@ int main() {
     draw_arrow(drawing, {0, 0}, flat(r), orange);
     draw_arrow(drawing, {0, 0}, flat(normal), {.width = 2});
 
-    // Twice I, drawn a little below the mirror, and D back from there: that is R.
+    // Twice I is drawn a little below the mirror, and minus D from the end of twice I;
+    // their sum is R.
     const Vec below{0, -0.16, 0};
     draw_arrow(drawing, flat(below), flat(below + i), green);
     draw_arrow(drawing, flat(below + i), flat(below + 2.0 * i), green);

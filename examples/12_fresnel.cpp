@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 12_fresnel.cpp
-/// \brief Balls of gold, copper and silver: what metals reflect, at every angle and in
-/// three colours.
+/// \brief Renders balls of gold, copper and silver, whose reflectance depends on angle
+/// and colour.
 
 #include <ljus/ljus.hpp>
 
@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
                         .report{.width = 600, .height = 300, .samples = 100},
                         .reference{.width = 900, .height = 450, .samples = 4096}});
 
-        // A dark room, whose walls at the left and at the right are lamps: the balls
-        // show them along their rims.
+        // A dark room whose left and right walls are lamps, which the balls reflect
+        // along their rims.
         Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Metal>> scene;
         const auto wall = [&](const Quad& quad, const Rgb& albedo, float light = 0) {
             scene.add(quad, scene.add(Lambertian{.albedo = albedo}), Rgb{light});
@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
         wall({{-4, 0, 4}, {0, 5, 0}, {8, 0, 0}}, Rgb{0.2f});
         wall({{-4, 5, -4}, {8, 0, 0}, {0, 0, 8}}, Rgb{0.3f});
 
-        // A metal is known by its complex index of refraction, for red, green and blue.
+        // A metal is described by its complex index of refraction, for red, green and
+        // blue.
         const auto gold = scene.add(Metal{.index = ljus::gold<float>});
         const auto copper = scene.add(Metal{.index = ljus::copper<float>});
         const auto silver = scene.add(Metal{.index = ljus::silver<float>});

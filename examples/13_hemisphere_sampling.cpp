@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 13_hemisphere_sampling.cpp
-/// \brief A diffuse material that samples directions in proportion to the cosine, and a
-/// ball of it under a lamp, without shadow rays.
+/// \brief Renders a ball of a diffuse material that samples directions in proportion to
+/// the cosine, without shadow rays.
 
 #include <cmath>
 #include <numbers>
@@ -16,10 +16,10 @@ using namespace ljus;
 /// A diffuse surface.
 struct Matt {
     using Scalar = float; ///< The precision.
-    Rgb albedo{0.5f};     ///< In [0, 1].
+    Rgb albedo{0.5f};     ///< Albedo, in [0, 1].
 };
 
-/// Its only lobe is diffuse.
+/// The lobes of the material: only a diffuse one.
 Lobes lobes(const Matt&) {
     return Lobes::diffuse;
 }
@@ -36,9 +36,8 @@ float pdf(const Matt&, const Vec3& wo, const Vec3& wi, Lobes = Lobes::all) {
 }
 
 // [sample]
-/// A direction, and the weight f cos / pdf of the light from there. For naive
-/// directions call sample_naive_hemisphere() and pdf_naive_hemisphere(), the latter in
-/// pdf() as well.
+/// Samples a direction, with the weight f cos / pdf. For naive directions, call
+/// sample_naive_hemisphere() here, and pdf_naive_hemisphere() here and in pdf().
 std::optional<BsdfSample> sample(const Matt& matt, const Vec3& wo, const Vec3& u,
                                  Transport, Lobes which = Lobes::all) {
     if (!has(which, Lobes::diffuse) || wo.z == 0) return std::nullopt;

@@ -1,8 +1,8 @@
 // figures: fig-14
 // smoke: --quality draft --width 24 --height 24 --rays 1
 /// \file 14_oren_nayar.cpp
-/// \brief Figure 14: a rough ball by the report's formula and roughnesses, and by EON
-/// with roughnesses within its range.
+/// \brief Figure 14: a rough ball by the report's formula with the report's
+/// roughnesses, and by EON with roughnesses in its own range.
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // figures: fig-4
 // smoke: --quality draft --width 32 --height 8 --rays 1
 /// \file 15_materials.cpp
-/// \brief Figure 4: eight materials in a room and, below, in two furnaces, where a ball
-/// that loses no light cannot be seen.
+/// \brief Figure 4: eight materials in a room and, in two rows below, in a furnace,
+/// where a ball that loses no light is invisible.
 
 #include <algorithm>
 
@@ -18,13 +18,13 @@ using Row =
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, ThinGlass, Eon, Mirror,
                                           Metal, RoughMetal, Globe, Tiles>>;
 
-/// The ball with this index in the row, from the left.
+/// The ball with this index in the row, counted from the left.
 Sphere ball_at(int place) {
     return {.center{2.4f * (float(place) - 3.5f), 1, 0}, .radius = 1};
 }
 
 /// Calls f(index, material) for each ball.
-/// \param white  Whether to make materials white, if possible (not gold).
+/// \param white  Whether to make the materials white, except gold.
 /// \param f      Called with the index and a material of any type.
 template <typename F>
 void for_each_ball(bool white, F f) {
@@ -46,7 +46,7 @@ void for_each_ball(bool white, F f) {
                 .rows = 8}});
 }
 
-/// The row in a room with two lamps, by photon mapping.
+/// Renders the row of balls in a room with two lamps, by photon mapping.
 Image in_a_room(const examples::Options& options) {
     Row scene;
     const auto matt = [&](const Rgb& c) { return scene.add(Lambertian{.albedo = c}); };
@@ -78,13 +78,13 @@ Image in_a_room(const examples::Options& options) {
     return examples::rendered("room", mapper, camera, options).image;
 }
 
-/// Each ball alone under a sky of radiance 1, at half the exposure: a ball that loses
-/// no light is as grey as the sky.
+/// Renders each ball alone under a sky of radiance 1, at half the exposure. A ball that
+/// loses no light is as grey as the sky.
 void in_a_furnace(bool white, Image& figure, const examples::Options& options) {
     for_each_ball(white, [&](int place, const auto& material) {
         Row scene;
         const auto black = scene.add(Lambertian{.albedo = Rgb{0}});
-        scene.add(Sphere{.radius = 100}, black, Rgb{1}, true); // its inside
+        scene.add(Sphere{.radius = 100}, black, Rgb{1}, true); // seen from inside
         scene.add(ball_at(place), scene.add(material));
         const World world(std::move(scene));
         const int left = options.width * place / 8;

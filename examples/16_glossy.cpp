@@ -12,7 +12,8 @@ namespace {
 
 using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, RoughMetal>>;
 
-/// A long room with a lamp over five balls, each of a rougher gold than the one before.
+/// A long room with a lamp over five balls of gold. Each ball is rougher than the one
+/// before.
 Hall five_balls() {
     Hall hall;
     const auto matt = [&](const Rgb& c) { return hall.add(Lambertian{.albedo = c}); };

@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
                         .report{.width = 800, .height = 800, .samples = 36},
                         .reference{.width = 1000, .height = 1000, .samples = 1000}});
 
-        // A table of the colours of a film of water by thickness and angle, computed
-        // from the spectrum.
+        // A table of the colours that a film of water reflects, by thickness and angle,
+        // computed from spectra.
         const auto colors = bake_film_table(1.33f);
         const SoapFilm soap{.thickness = 900, // nm, at the lowest point
                             .scale = 0.8f,

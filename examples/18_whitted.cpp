@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
         scene.add(Sphere{.center{0.5f, 1.5f, 1.2f}, .radius = 1}, glass);
         scene.add(Sphere{.center{-1.1f, 1.1f, -1.3f}, .radius = 1.1f}, mirror);
         scene.add(Quad{{-6, 0, 3.5f}, {11, 0, 0}, {0, 0, -16}}, tiles);
-        scene.add(Sphere{.radius = 60}, black, sky, true); // its inside
+        scene.add(Sphere{.radius = 60}, black, sky, true); // seen from inside
         scene.add(PointLight{.position{-3, 7, 5}, .intensity = Rgb{190}});
         const World world(std::move(scene));
         const Camera camera = look_at(
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
 
         for (int depth = 0; depth <= 5; ++depth) {
             // The sky is visible, but no shadow ray is sent to it. Constant ambient
-            // light, which no ball shades, replaces its light.
+            // light replaces the light of the sky; no ball shades it.
             const WhittedTracer tracer(
                 world, {.max_depth = depth, .lamps = false, .ambient = sky});
             const std::string name = "whitted-depth-" + std::to_string(depth);

@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
         scene.add(Quad{{-60, 0, 60}, {120, 0, 0}, {0, 0, -120}},
                   matt({0.06f, 0.35f, 0.16f}));
 
-        // Where a ball is when the shutter opens, and how far it rolls until it closes.
+        // The position of a ball when the shutter opens, and the way that it rolls
+        // until the shutter closes.
         const auto ball = [&](const Vec3& place, const Vec3& way, const Rgb& color) {
             scene.add(Moving<Sphere>{{.center = place, .radius = 0.5f}, way},
                       matt(color));

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 1
 /// \file 20_path_tracing.cpp
-/// \brief A diffuse room by path tracing: by paths alone, with shadow rays, and with
-/// both, weighted.
+/// \brief Renders a diffuse room by path tracing: by paths alone, with shadow rays, and
+/// with both, weighted by MIS.
 
 #include <string>
 

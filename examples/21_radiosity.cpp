@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 1 --size 6.3
 /// \file 21_radiosity.cpp
-/// \brief The report's room by radiosity: patches, form factors and a solution, which a
-/// camera then looks at; and by path tracing.
+/// \brief Renders the report's room by radiosity, with patches, form factors and a
+/// solution that any camera can use, and by path tracing.
 
 #include <cstdio>
 

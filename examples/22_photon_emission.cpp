@@ -1,7 +1,7 @@
 // smoke: --quality draft --photons 500 --width 40 --height 40
 /// \file 22_photon_emission.cpp
-/// \brief Chapter 22: where photons land, directly from the lamps and after meeting a
-/// surface.
+/// \brief Chapter 22: shows where photons land, directly from the lamps and after they
+/// have met a surface.
 
 #include <cstdio>
 #include <string>
@@ -17,7 +17,7 @@ using namespace ljus;
 
 namespace {
 
-/// Adds photons as dots in the colour of their flux, where the camera can see them.
+/// Draws the photons that the camera can see, as dots in the colour of their flux.
 template <typename Scene>
 void add_dots(Image& image, const Room<Scene>& room,
               const std::vector<Photon>& photons) {

@@ -53,7 +53,7 @@ int main() {
                              .high{1.05, 1.16},
                              .scale = 340};
     PhotonMap map;
-    const double flux = 1; // of each photon; no line depends on it
+    const double flux = 1; // of each photon; has no effect on the drawing
     for (int i = 0; i < 60; ++i) {
         auto stream = photon_stream({}, i);
         const PathState photon = emit_photon(scene, flux, stream);

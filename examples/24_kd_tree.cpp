@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
         const std::vector<Vec3> points = on_floor(photons, options.seed);
         if (points.empty()) return;
 
-        // The floor from above; the picture is as wide as its photons lie.
+        // The floor seen from above; the picture is as wide as the area with photons.
         Vec3 low = points[0], high = points[0];
         for (const Vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
         const float scale =
@@ -67,8 +67,9 @@ int main(int argc, char** argv) {
         };
         for (const Vec3& p : points) dot(p, Rgb{0.15f});
 
-        // The 400 nearest. The walk passes on each photon whose distance it computes,
-        // and asks whether a box at some distance can hold a nearer one.
+        // A search for the 400 nearest photons. The walk calls one function with each
+        // photon whose distance it computes, and another one to ask whether a box at
+        // some distance can hold a nearer photon.
         const KdTree tree{std::span<const Vec3>(points)};
         const Vec3 center =
             low +

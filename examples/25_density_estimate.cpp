@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24 --photons 500
 /// \file 25_density_estimate.cpp
-/// \brief Chapter 25: the light under a ball of glass, from the same photons by discs of
-/// three sizes.
+/// \brief Chapter 25: the light under a ball of glass, estimated from the same photons
+/// by discs of three sizes.
 
 #include <string>
 
@@ -27,8 +27,8 @@ Stage ball_over_floor() {
     return stage;
 }
 
-/// The floor around the middle of the caustic, 0.6 wide, from above: the radiance that
-/// the photons within a radius say it sends upwards.
+/// A picture of the floor from above, 0.6 wide, around the middle of the caustic. It
+/// shows the radiance that is estimated from the photons within a radius.
 Image floor_by_photons(const PhotonMap& map, float radius,
                        const examples::Options& options) {
     Image image = make_image(options.width, options.height);

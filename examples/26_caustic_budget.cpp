@@ -12,7 +12,8 @@
 
 using namespace ljus;
 
-/// Renders two balls, half of the photons to each, and by the area of their caustics.
+/// Renders two balls: with half of the photons for each, and with photons in proportion
+/// to the area of their caustics.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 26: a budget for the photons of caustics.");
@@ -28,7 +29,7 @@ int main(int argc, char** argv) {
         scene.add(Sphere{.center{-1, 0.8f, 0}, .radius = 0.5f},
                   scene.add(Glass{.index = 1.05f})); // a wide, faint caustic
         scene.add(Sphere{.center{1, 0.8f, 0}, .radius = 0.5f},
-                  scene.add(Glass{.index = 1.5f})); // a small, bright one
+                  scene.add(Glass{.index = 1.5f})); // a small, bright caustic
         scene.add(PointLight{.position{0, 4, 0}, .intensity = Rgb{10}});
         const World world(std::move(scene));
         const Camera camera = look_at(

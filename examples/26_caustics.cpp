@@ -1,7 +1,7 @@
 // figures: fig-8 fig-11 table-2
 // smoke: --quality draft --width 24 --height 24 --rays 1 --photons 300
 /// \file 26_caustics.cpp
-/// \brief Figures 8 and 11 and table 2: caustics, by the number of their photons.
+/// \brief Figures 8 and 11 and table 2: caustics with different numbers of photons.
 
 #include <algorithm>
 #include <string>
@@ -20,7 +20,7 @@ namespace {
 
 using GlassRoom = decltype(four_glass_room());
 
-/// The caustic photons as dots.
+/// Draws the caustic photons as dots.
 void figure_8(const GlassRoom& room, const examples::Options& options) {
     const auto traced = trace_photons(room.world, MapType::caustics,
                                       {.photons = 20000, .seed = options.seed});
@@ -32,7 +32,7 @@ void figure_8(const GlassRoom& room, const examples::Options& options) {
     save_png(image, options.path("fig-8.png"));
 }
 
-/// Pictures of one size side by side.
+/// Puts pictures of one size side by side.
 Image in_a_row(const std::vector<Image>& pictures) {
     const int width = pictures[0].width, height = pictures[0].height;
     const int gap = std::max(1, width / 50), count = int(pictures.size());
@@ -45,8 +45,8 @@ Image in_a_row(const std::vector<Image>& pictures) {
     return all;
 }
 
-/// Pictures by the report's settings, with more and more caustic photons, and their
-/// cost in processor seconds.
+/// Renders pictures by the report's settings, with more and more caustic photons, and
+/// measures their cost in processor seconds.
 void figure_11(const GlassRoom& room, long long most,
                const examples::Options& options) {
     struct Column {

@@ -25,8 +25,9 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 300, .height = 300, .samples = 1}});
         if (!line.given("--photons")) photons = options.pick(15000LL, 30000LL, 60000LL);
 
-        // All three kinds come from one pass: a photon is direct at its first surface
-        // and indirect later; its first ray, extended, leaves shadow photons.
+        // All three kinds come from one pass. A photon is direct at its first surface
+        // and indirect at later ones. Beyond the first surface, its extended first ray
+        // leaves shadow photons.
         const auto room = final_room();
         const auto traced = trace_photons(
             room.world, MapType::general,

@@ -1,6 +1,6 @@
 // smoke: --quality draft --photons 1000 --width 24 --height 24
 /// \file 27_shadow_photons.cpp
-/// \brief Chapter 27: what photons tell about each lamp, in every pixel, by three
+/// \brief Chapter 27: the verdict of photons on each lamp in every pixel, by three
 /// rules.
 
 #include <string>
@@ -28,8 +28,8 @@ bool faces(const W& world, const Vertex& vertex, std::uint32_t lamp) {
     return false;
 }
 
-/// The verdict on a lamp in each pixel: yellow for lit, blue for shadow, red where a
-/// ray must decide, and the drawing of the room where no ray is needed.
+/// A picture of the verdict on a lamp: yellow where it is lit, blue in shadow, red
+/// where a ray must decide. Where no ray is needed the drawing of the room is shown.
 template <typename Mapper>
 Image verdict_map(const Mapper& mapper, const Camera& camera, std::uint32_t lamp,
                   const examples::Options& options) {

@@ -15,7 +15,7 @@ using namespace ljus;
 
 namespace {
 
-/// A room by the report's two passes.
+/// Renders a room by the report's two passes.
 template <typename Scene>
 void make_figure(const std::string& name, const Room<Scene>& room,
                  const PhotonMappingSettings& settings,

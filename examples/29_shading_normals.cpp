@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 29_shading_normals.cpp
-/// \brief A ball and a ring of triangles, flat and smooth: shaded with the normals of
-/// their faces, and with normals between those of their corners.
+/// \brief Renders a ball and a ring of triangles, flat with the normals of their faces,
+/// and smooth with normals that are interpolated between their corners.
 
 #include <string>
 

@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 16 --height 16 --rays 4 --photons 2000
 /// \file 30_final_gathering.cpp
-/// \brief Chapter 30: photons seen directly, and from one bounce away.
+/// \brief Chapter 30: photons that are seen directly, and by gather rays one bounce
+/// away.
 
 #include <algorithm>
 #include <string>
@@ -15,11 +16,11 @@ using namespace ljus;
 
 namespace {
 
-/// A renderer that shows what a gather ray finds: it sends gather rays from the camera.
+/// A renderer that shows what gather rays find, by sending them from the camera.
 template <typename Mapper>
 struct PointsSeen {
-    using Stream = RandomStream; ///< The random stream that render() passes to it.
-    const Mapper& mapper;        ///< With the irradiance points of Gathering.
+    using Stream = RandomStream; ///< The random stream that render() passes.
+    const Mapper& mapper;        ///< A mapper with Gathering.
 };
 template <typename Mapper>
 Rgb radiance(const PointsSeen<Mapper>& seen, const Ray& ray, auto& context) {
@@ -49,8 +50,8 @@ int main(int argc, char** argv) {
         settings.general.seed = settings.caustics.seed = options.seed;
         settings.general.threads = settings.caustics.threads = options.threads;
         settings.general.shadow_photons = false;
-        // 0: the radius that typically holds 64 photons of the general map, or 32 of
-        // the caustics map.
+        // With 0 the mapper chooses a radius that typically holds 64 photons of the
+        // general map, or 32 of the caustics map.
         settings.general_estimate.radius = settings.caustics_estimate.radius = 0;
 
         const auto save = [&](const std::string& name, const auto& renderer,

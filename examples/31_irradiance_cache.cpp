@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 24
 /// \file 31_irradiance_cache.cpp
-/// \brief Chapter 31: indirect light gathered everywhere, and at few points with
-/// interpolation between them.
+/// \brief Chapter 31: indirect light that is gathered in every pixel, or at few points
+/// and interpolated.
 
 #include <algorithm>
 #include <string>
@@ -44,11 +44,11 @@ int main(int argc, char** argv) {
                 examples::rendered(name, indirect, room.camera, picture, options).image,
                 options.path("irradiance_cache-" + name + ".png"), {.exposure = 2});
         };
-        save_indirect("everywhere"); // the cache is empty: gathers in every pixel
+        save_indirect("everywhere"); // gathers in every pixel
         mapper.fill_cache(room.camera, picture);
         save_indirect("interpolated");
 
-        // Draws the points as dots: as photons that arrive from the visible side.
+        // The points are drawn as dots, as if they were photons on the visible side.
         const IrradianceCache& cache = mapper.state<Gathering>().cache;
         std::vector<Photon> points;
         for (std::size_t i = 0; i < cache.records.size(); ++i)

@@ -14,7 +14,7 @@
 
 using namespace ljus;
 
-/// Renders the Cornell box pass by pass, each with photons of its own.
+/// Renders the Cornell box in passes, each with its own photons.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         long long passes = 0;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
         if (resume) {
             state = load_checkpoint(checkpoint);
             examples::require_same_picture(checkpoint, state.picture, picture);
-            require_first_pass(state, pass); // by the same program?
+            require_first_pass(state, pass); // refuses another picture
         }
         examples::ProgressBar bar("passes", options.quiet);
         examples::StopWatch watch;

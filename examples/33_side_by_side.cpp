@@ -53,8 +53,8 @@ int main(int argc, char** argv) {
                  .analytic = false, .rays = 512, .seed = seed, .threads = threads}});
         save("radiosity", LightMapView(room.world, solved->map), 17);
 
-        // Two passes: one gather ray leaves each diffuse surface, and the photon map is
-        // looked up where it ends.
+        // Two passes: one gather ray leaves each diffuse surface, and its end is looked
+        // up in the photon map.
         PhotonMappingSettings settings{.indirect = IndirectLight::map,
                                        .general{.photons = 16516,
                                                 .seed = seed,
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
                                        .general_estimate{.radius = 0.27913f}};
         save("photons", PhotonMapper(room.world, settings), 33);
 
-        // The photon map seen directly, with more photons in smaller discs.
+        // The photon map is seen directly, with more photons in smaller discs.
         settings.shadow_rays = 4;
         settings.indirect = IndirectLight::photons;
         settings.general.photons = 239788;

@@ -1,7 +1,7 @@
 // needs: mpi
 /// \file 34_many_machines.cpp
-/// \brief Chapter 34: both passes on many machines, with Open MPI; byte for byte the
-/// picture of one machine.
+/// \brief Chapter 34: runs both passes on many machines, with Open MPI. The picture is
+/// byte for byte that of one machine.
 ///
 ///     mpirun -n 8 34_many_machines scene.json --out folder
 
@@ -27,7 +27,7 @@ using examples::Rank;
 
 namespace {
 
-/// The photons of the caustics map: this rank traces some, and receives all.
+/// The photons of the caustics map. This rank traces some of them, and receives all.
 // [photons]
 template <AnyWorld W>
 std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
@@ -41,7 +41,8 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
     std::partial_sum(counts.begin(), counts.end(), before.begin() + 1);
     std::vector<Photon> all(std::size_t(before.back()));
-    MPI_Datatype photon = MPI_DATATYPE_NULL; // MPI counts in int: photons, not bytes
+    MPI_Datatype photon = MPI_DATATYPE_NULL; // MPI counts in int, so photons are
+                                             // counted, not bytes
     MPI_Type_contiguous(int(sizeof(Photon)), MPI_BYTE, &photon);
     MPI_Type_commit(&photon);
     MPI_Allgatherv(mine.photons.data(), count, photon, all.data(), counts.data(),
@@ -51,7 +52,8 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
 }
 // [photons]
 
-/// The strips of rows that a rank renders, dealt out in turn to share the slow regions.
+/// The strips of rows that a rank renders. Strips are dealt to the ranks in turn, so
+/// that all of them share the slow regions.
 std::vector<RowRange> strips_of(const Rank& rank, int height) {
     constexpr int strip = 8; // rows
     std::vector<RowRange> strips;

@@ -1,7 +1,8 @@
 // figures: table-1
 // smoke: --quality draft --width 8 --height 8
 /// \file 34_parallel.cpp
-/// \brief Chapter 34: the report's room, rendered by one thread and by all. Table 1.
+/// \brief Chapter 34, table 1: the report's room, rendered by one thread and by all
+/// threads.
 
 #include <algorithm>
 #include <string>
@@ -21,10 +22,10 @@ namespace {
 
 /// A row of the report's table 1, in seconds.
 struct ReportRow {
-    int rays;       ///< Per pixel.
-    double one;     ///< Its "unparallelized rendering time".
-    double four;    ///< Its "parallelized rendering time", on four cores.
-    double printed; ///< Its quotient, as it is printed.
+    int rays;       ///< Rays per pixel.
+    double one;     ///< "Unparallelized rendering time".
+    double four;    ///< "Parallelized rendering time", on four cores.
+    double printed; ///< The quotient of both, as printed.
 };
 
 double median(std::vector<double> values) {
@@ -34,7 +35,7 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-/// Measures the time of pictures with one thread and with all.
+/// Measures the time of pictures with one thread and with all threads.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         line.about("Chapter 34, many threads: table 1.");

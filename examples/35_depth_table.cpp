@@ -1,7 +1,7 @@
 // figures: table-4
 // smoke: --quality draft --width 16 --height 16 --rays 1
 /// \file 35_depth_table.cpp
-/// \brief Chapter 35: the cost of deeper paths, and the light that they add. Table 4.
+/// \brief Chapter 35, table 4: the cost of deeper paths, and the light that they add.
 
 #include <algorithm>
 #include <string>
@@ -28,7 +28,7 @@ PhotonMappingSettings settings_with(int depth, std::uint64_t seed, int threads) 
     return settings;
 }
 
-/// Pictures of the reference's size, each with photons of its own.
+/// Pictures of the size of the reference, each with its own photons.
 template <typename Room>
 std::vector<Image> runs_to_depth(const Room& room, int depth,
                                  const examples::Oracle& oracle,

@@ -1,7 +1,7 @@
 // figures: fig-12
 // smoke: --quality draft --width 8 --height 8
 /// \file 35_rays_per_pixel.cpp
-/// \brief Chapter 35: one room with more and more rays per pixel, figure 12.
+/// \brief Chapter 35, figure 12: one room with more and more rays per pixel.
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // figures: table-3
 // smoke: --quality draft --width 8 --height 8
 /// \file 35_rays_table.cpp
-/// \brief Chapter 35: time and error with more rays per pixel. Table 3.
+/// \brief Chapter 35, table 3: time and error with more rays per pixel.
 
 #include <algorithm>
 #include <string>
@@ -41,7 +41,7 @@ auto mappers_of(const World& world, bool fixed_depth,
 
 /// The error of pictures with a number of rays.
 struct Errors {
-    double pixels = 0; ///< relMSE.
+    double pixels = 0; ///< relMSE of pixels.
     double blocks = 0; ///< relMSE of the means of 10 x 10 pixels.
     double flip = 0;   ///< FLIP of the first seed.
 };
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
             const double seconds = examples::processor_seconds() - before;
             table.rows.push_back({std::to_string(rays), time, text(first_pass, "%.2f"),
                                   text(seconds, "%.3g"), "", "", "", "", ""});
-            if (rays > options.pick(100, 1000, 1000)) continue; // a draft is quick
+            if (rays > options.pick(100, 1000, 1000)) continue; // to keep a draft quick
             const auto a = errors_of(fixed, room.camera, rays, oracle, options);
             const auto b = errors_of(roulette, room.camera, rays, oracle, options);
             auto cell = table.rows.back().begin() + 4;

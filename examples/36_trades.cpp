@@ -18,7 +18,7 @@ using examples::text;
 
 namespace {
 
-/// The mean of as many pictures as fit into the time.
+/// The mean of as many pictures as can be made in the time.
 /// \param shoot  Makes a picture with the given seed.
 template <typename Shoot>
 ProgressiveState mean_within(double seconds, Shoot shoot) {
@@ -29,7 +29,8 @@ ProgressiveState mean_within(double seconds, Shoot shoot) {
         add_pass(mean, shoot(std::uint64_t(mean.passes) + 1));
         examples::stop_if_asked();
         took = examples::processor_seconds() - begin;
-    } while (took + took / double(mean.passes) / 2 < seconds); // within half a picture
+    } while (took + took / double(mean.passes) / 2 < seconds); // to within half a
+                                                               // picture
     return mean;
 }
 
@@ -42,7 +43,7 @@ struct Way {
 
 } // namespace
 
-/// Renders the Cornell box by each way.
+/// Renders the Cornell box by each of the settings.
 int main(int argc, char** argv) {
     return examples::run_main(argc, argv, [](examples::CommandLine& line) {
         double seconds = 0;

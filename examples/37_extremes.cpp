@@ -48,7 +48,7 @@ Room<ReportSceneT<T>> room_at(double away) {
     return {World(std::move(scene)), camera};
 }
 
-/// Renders the room at five distances: the pictures, side by side with thin gaps.
+/// Renders the room at five distances, and puts the pictures side by side.
 template <std::floating_point T>
 Image row_of_rooms(const std::string& name, const examples::Options& options) {
     constexpr int gap = 4;

@@ -1,7 +1,7 @@
 // smoke:
 /// \file 38_break_it.cpp
-/// \brief Chapter 38: one line of refraction is left out. The right picture, the wrong
-/// one, and their difference.
+/// \brief Chapter 38: one line of the refraction is left out. The program makes the
+/// right picture, the wrong picture, and their difference.
 // runs in the folder of its picture
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr int size = 160; // pixels on a side
 
-/// Snell's law as in `ljus::refract`, with one line left out: a square below 0 counts
-/// as 0, although it means that all light is reflected.
+/// Snell's law as in `ljus::refract`, with one line left out: a negative square is
+/// replaced by 0, although it means total internal reflection.
 // [wrong]
 std::optional<Vec3> wrong_refract(const Vec3& direction, const Vec3& normal,
                                   float eta) {
@@ -33,7 +33,7 @@ std::optional<Vec3> wrong_refract(const Vec3& direction, const Vec3& normal,
 }
 // [wrong]
 
-/// The floor of a pool: squares, seen through water.
+/// The colour of the floor of a pool. The floor has squares.
 Rgb floor_color(const Vec3& place) {
     const int squares = int(std::floor(place.x)) + int(std::floor(place.z));
     return (squares % 2 == 0 ? 0.75f : 0.25f) * Rgb{0.25f, 0.6f, 0.65f};
@@ -45,7 +45,7 @@ Rgb sky_color(const Vec3& direction) {
     return glm::mix(Rgb{0.95f, 0.85f, 0.7f}, Rgb{0.2f, 0.4f, 0.8f}, up);
 }
 
-/// Bends a ray at a surface, or returns nothing if all light is reflected.
+/// A function that refracts a ray; it returns nothing if all light is reflected.
 using Refract = std::optional<Vec3>(const Vec3& direction, const Vec3& normal,
                                     float eta);
 

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 500
 /// \file 39_environment.cpp
-/// \brief Chapter 39: a picture of a morning sky, and balls of mirror, clay and glass
-/// in its light.
+/// \brief Chapter 39: makes a picture of a morning sky, and renders balls of mirror,
+/// clay and glass in its light.
 
 #include <cmath>
 #include <numbers>
@@ -19,8 +19,9 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 
 // [morning]
-/// The radiance from a direction of a clear sky, W/(m^2 sr): pale at the horizon, blue
-/// above, warm around a sun with a radius of 2 degrees, and sand below.
+/// The radiance of a clear sky from a direction, W/(m^2 sr). The sky is pale at the
+/// horizon, blue above, and warm around a sun with a radius of 2 degrees. Below the
+/// horizon is sand.
 Rgb morning(const Vec3& direction) {
     const Vec3 sun = glm::normalize(Vec3{-1.5f, 1.4f, -1.1f});
     if (direction.y < 0) return {0.75f, 0.62f, 0.45f};
@@ -31,7 +32,7 @@ Rgb morning(const Vec3& direction) {
     return horizon + std::sqrt(direction.y) * (zenith - horizon) + glow;
 }
 
-/// The same as a picture, with the direction of each pixel's middle.
+/// The sky as a picture, computed for the direction of the middle of each pixel.
 Image picture_of_morning(int width, int height) {
     Image picture = make_image(width, height);
     for (int y = 0; y < height; ++y)

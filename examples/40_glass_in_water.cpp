@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 32 --height 32 --rays 1
 /// \file 40_glass_in_water.cpp
-/// \brief A glass of water with bubbles and a straw: bodies that overlap.
+/// \brief Renders a glass of water with bubbles and a straw, all of which are bodies
+/// that overlap.
 
 #include <ljus/geometry/cylinder.hpp>
 #include <ljus/geometry/disc.hpp>
@@ -21,9 +22,10 @@ void add_rod(Table& table, const Cylinder& side, MaterialId material) {
     for (const Disc& end : ends_of(side)) table.add(end, material);
 }
 
-/// Adds the glass and what is in it. Each is a whole body that overlaps the others.
+/// Adds the glass and its content. Each part is a whole body that overlaps other
+/// bodies.
 /// \param table  The scene.
-/// \param rank   1 for their order; 0: none of them has a priority.
+/// \param rank   1: the bodies have priorities; 0: no body has a priority.
 // [glass of water]
 void add_glass(Table& table, int rank) {
     const Rgb green{0.5f, 0.15f, 0.4f}, blue{0.3f, 0.1f, 0.04f};
@@ -36,7 +38,7 @@ void add_glass(Table& table, int rank) {
     add_rod(table, {{0, 0.14f, 0}, {0, 0.9f, 0}, 0.54f}, water);   // into the glass
     table.add(Sphere{{-0.2f, 0.5f, 0.15f}, 0.13f}, bubble);
     table.add(Sphere{{-0.33f, 0.8f, 0.1f}, 0.07f}, bubble);
-    table.add(Sphere{{-0.1f, 1.04f, 0.2f}, 0.1f}, bubble); // it reaches the surface
+    table.add(Sphere{{-0.1f, 1.04f, 0.2f}, 0.1f}, bubble); // reaches the water surface
 }
 // [glass of water]
 

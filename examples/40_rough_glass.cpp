@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 48 --height 20 --rays 1
 /// \file 40_rough_glass.cpp
-/// \brief Five plates of glass before a wall of squares, from smooth to rough.
+/// \brief Renders five plates of glass, from smooth to rough, in front of a wall of
+/// squares.
 
 #include <ljus/ljus.hpp>
 #include <ljus/materials/rough_glass.hpp>

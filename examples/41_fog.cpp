@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 18 --rays 1
 /// \file 41_fog.cpp
-/// \brief A lamp behind a grating throws shafts into fog; and three ways to find its
-/// light, with equal rays.
+/// \brief Renders a lamp behind a grating, which throws shafts of light into fog, and
+/// compares three ways to find this light with equally many rays.
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // smoke: --quality draft --width 24 --height 18 --rays 1
 /// \file 42_volume_photons.cpp
-/// \brief A ball of glass throws a shaft of light into fog; and what the number of
-/// photons in a ball changes.
+/// \brief Renders a ball of glass that throws a shaft of light into fog, with different
+/// numbers of photons per estimate.
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ using namespace ljus;
 using Cellar = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass>,
                      Lights<SpotLight>, Media<Fog<Box>>>;
 
-/// A spot shines on a ball of glass, in a room full of fog.
+/// A room full of fog, in which a spot light shines on a ball of glass.
 Cellar cellar() {
     Cellar scene;
     const auto wall = scene.add(Lambertian{.albedo{0.5f, 0.47f, 0.43f}});

@@ -21,7 +21,8 @@ namespace {
 using Table = Scene<Shapes<Quad, Sphere, Mesh>, Materials<Lambertian, DispersiveGlass>,
                     Lights<SunLight, SpotLight, EnvironmentLight>>;
 
-/// A body of rings of corners, one above the other, each counter-clockwise from above.
+/// The surface of a body with rings of corners, one above the other. Each ring is
+/// counter-clockwise as seen from above.
 MeshData stacked(std::vector<std::vector<Vec3>> rings) {
     MeshData data;
     const auto n = std::uint32_t(rings[0].size());
@@ -87,8 +88,8 @@ int main(int argc, char** argv) {
             return {{-0.5f, y, -0.3f}, {0, y, 0.566f}, {0.5f, y, -0.3f}};
         };
         prism.add(Mesh(stacked({triangle(0.001f), triangle(0.8f)})), flint);
-        // Sunlight through a slit between two black walls. In the prism it runs along
-        // the base, and so is deviated least.
+        // Sunlight through a slit between two black walls. In the prism it is parallel
+        // to the base, which gives the least deviation.
         const auto black = prism.add(Lambertian{.albedo = Rgb{0.02f}});
         const Vec3 slit{-2.85f, 0, -1.36f}, along{0.497f, 0, -0.868f}, up{0, 3, 0};
         prism.add(Quad{slit + 0.02f * along, 9.0f * along, up}, black);

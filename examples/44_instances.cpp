@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1 --photons 500
 /// \file 44_instances.cpp
-/// \brief Chapter 44: a field of knots, glass and clay, all of which are one mesh.
+/// \brief Chapter 44: a field of knots of glass and clay, all of which are instances of
+/// one mesh.
 
 #include <cmath>
 #include <numbers>
@@ -18,8 +19,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A trefoil knot around the y axis, with a tube of radius 0.2: 2 * around * across
-/// triangles.
+/// A trefoil knot around the y axis, with a tube of radius 0.2. It has 2 * around *
+/// across triangles.
 MeshData trefoil(int around, int across) {
     const auto center = [](double t) {
         const double out = 2 + std::cos(3 * t);
@@ -51,7 +52,8 @@ MeshData trefoil(int around, int across) {
 }
 
 // [place]
-/// Knot number i, in row and column: turned, scaled, and every second one mirrored.
+/// The map of the knot in a row and column. Each knot is turned and scaled, and every
+/// second one is mirrored.
 Affine place(int row, int column, RandomStream& stream) {
     const float angle = 6.2832f * next_1d<float>(stream);
     const float size = 0.24f + 0.1f * next_1d<float>(stream);

@@ -19,7 +19,7 @@ using namespace ljus;
 namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// A picture of color_of(u, v), on the shape's own coordinates.
+/// A texture with the colours color_of(u, v), in the coordinates of the shape.
 template <typename ColorOf>
 UvPicture drawn(int size, const UvMap& map, ColorOf color_of) {
     UvPicture picture{.image = make_image<float>(size, size), .map = map};
@@ -31,14 +31,14 @@ UvPicture drawn(int size, const UvMap& map, ColorOf color_of) {
 }
 
 // [leaf]
-/// Half the width of a leaf at the height v, with teeth along its rim, or of its stalk.
+/// Half the width of a leaf with a toothed rim at the height v, or of its stalk.
 float half_width(float v) {
     const float leaf = 0.4f * std::sin(pi * std::pow(v, 0.7f));
     const float teeth = 1 - 0.25f * std::abs(std::sin(9 * pi * v));
     return std::max(v < 0.12f ? 0.02f : 0.0f, leaf * teeth);
 }
 
-/// A square with the shape of a leaf, and paler veins.
+/// The material of a square with the shape of a leaf and paler veins.
 auto leaf(const Rgb& color) {
     const auto alpha = [](float u, float v) {
         return Rgb{std::abs(u - 0.5f) < half_width(v) ? 1.0f : 0.0f};
@@ -52,7 +52,7 @@ auto leaf(const Rgb& color) {
 }
 // [leaf]
 
-/// Tiles with grey joints, and normals that round their rims and make them wavy.
+/// The material of tiles with grey joints. Its normals make rounded rims and waves.
 auto tiles(float count) {
     const UvMap map{.scale{count, count}};
     const auto rim = [](float x) { return std::max(0.0f, std::abs(x - 0.5f) - 0.4f); };
@@ -69,7 +69,7 @@ auto tiles(float count) {
         {{.albedo = Rgb{1}}, drawn(128, map, color)}, {drawn(128, map, normal)}};
 }
 
-/// A square of this size around a point, turned at random, but rather upwards.
+/// A square around a point, turned at random, but facing upwards rather than down.
 Quad turned_square(const Vec3& center, float size, RandomStream& stream) {
     const Vec3 up =
         glm::normalize(Vec3{0, 1.2f, 0} + 2.0f * next_3d<float>(stream) - 1.0f);

@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 24 --height 16 --rays 1
 /// \file 46_lamps.cpp
-/// \brief Chapter 46: a wall below three goniometric lamps, and a textured window.
+/// \brief Chapter 46: a wall below three goniometric lamps, and a window that is a
+/// picture lamp.
 
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,8 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// A table of type C every 5 and 15 degrees from a formula in degrees, in cd.
+/// A table of intensities of type C, cd, from a formula of the angles in degrees; every
+/// 5 degrees in the polar angle and every 15 degrees around the axis.
 template <typename F>
 IntensityTable table_of(const F& candela) {
     IntensityTable table;
@@ -33,12 +35,12 @@ IntensityTable table_of(const F& candela) {
     return table;
 }
 
-/// 1 in the middle, 1/e at `width` degrees from it.
+/// A bell curve: 1 in the middle, and 1/e at a distance of `width` degrees.
 double lobe(double degrees, double middle, double width) {
     return std::exp(-std::pow((degrees - middle) / width, 2));
 }
 
-/// Three lamps that might be: a narrow beam in a faint ring; two wings to the sides;
+/// Three invented lamps: a narrow beam in a faint ring, two wings to the sides, and
 /// four petals.
 const IntensityTable beam = table_of([](double polar, double) {
     return 2600 * lobe(polar, 0, 12) + 160 * lobe(polar, 42, 5);

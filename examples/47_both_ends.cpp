@@ -1,6 +1,7 @@
 // smoke: --quality draft --width 32 --height 20 --rays 1
 /// \file 47_both_ends.cpp
-/// \brief Chapter 47: what each of four strategies adds to a caustic before a mirror.
+/// \brief Chapter 47: the contributions of four strategies to a caustic in front of a
+/// mirror.
 
 #include <array>
 #include <cmath>
@@ -15,12 +16,12 @@
 
 using namespace ljus;
 
-/// The strategies, as the terms of a VertexMerger are named.
+/// The strategies of a VertexMerger, by the names of its terms.
 constexpr std::array names{"emission", "shadow ray", "connection", "merging"};
 
 /// A log that adds up the terms of each strategy.
 struct TermLog {
-    std::array<Rgb, names.size()> sums{}; ///< One for each of `names`.
+    std::array<Rgb, names.size()> sums{}; ///< One sum for each of `names`.
 
     /// Ignores the start of a path.
     void begin() noexcept {}
@@ -33,7 +34,7 @@ struct TermLog {
     }
 };
 
-/// A glass ball on a floor before a mirror, lit by a small lamp.
+/// A room with a glass ball in front of a mirror, lit by a small lamp.
 auto mirror_room() {
     Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>> room;
     const auto white = room.add(Lambertian{.albedo = Rgb{0.7f}});
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
         std::vector<Image> shares(names.size(),
                                   make_image(options.width, options.height));
         examples::ProgressBar bar("passes", options.quiet);
-        double shrink = 1; // of the radius, squared
+        double shrink = 1; // squared factor of the radius
         for (int pass = 1; pass <= passes; ++pass) {
             const VertexMerger merger(world,
                                       {.paths = options.pick(20000, 40000, 60000),

@@ -1,5 +1,5 @@
 /// \file compare.cpp
-/// \brief How much a picture differs from another one: ljus-compare.
+/// \brief Measures how much a picture differs from a reference: ljus-compare.
 ///
 ///     ljus-compare picture.pfm reference.pfm
 ///     ljus-compare picture.pfm reference.pfm --map flip --out map.png
@@ -33,7 +33,7 @@ using namespace ljus;
 using Map = ImageT<double>;
 using examples::text;
 
-/// The user's options, besides those that all programs share.
+/// The options of this program, without those that all programs share.
 struct Request {
     std::string image;
     std::string reference;
@@ -66,7 +66,7 @@ Image load(const std::string& path) {
     return image;
 }
 
-/// Refuses two pictures of different size, by their names.
+/// Refuses pictures of different size, with a sentence that names both files.
 void require_alike(const Image& a, const std::string& a_path, const Image& b,
                    const std::string& b_path) {
     if (a.width == b.width && a.height == b.height) return;
@@ -85,18 +85,18 @@ double level_of(const Image& image) {
     return sum / 3 / double(image.pixels.size());
 }
 
-/// All errors of a picture, in the order in which they are printed.
+/// The errors of a picture, in the order in which they are printed.
 struct Errors {
     double mean = 0;     ///< Mean of the picture.
     double truth = 0;    ///< Mean of the reference.
-    double rmse = 0;     ///< rmse().
-    double relative = 0; ///< rel_mse().
-    double trimmed = 0;  ///< trimmed_rel_mse().
-    double block = 0;    ///< block_error().
-    double flip = 0;     ///< flip(), of the picture as a screen shows it.
-    double hdr_flip = 0; ///< hdr_flip().
+    double rmse = 0;     ///< Result of rmse().
+    double relative = 0; ///< Result of rel_mse().
+    double trimmed = 0;  ///< Result of trimmed_rel_mse().
+    double block = 0;    ///< Result of block_error().
+    double flip = 0;     ///< Result of flip(), for the picture as a screen shows it.
+    double hdr_flip = 0; ///< Result of hdr_flip().
 
-    /// How much brighter the picture is, in per cent; NaN beside a black reference.
+    /// Difference of the means in per cent of the reference; NaN if that is black.
     [[nodiscard]] double per_cent() const {
         return truth == 0 ? std::numeric_limits<double>::quiet_NaN()
                           : 100 * (mean - truth) / truth;
@@ -153,14 +153,14 @@ void print_json(const Errors& errors, const Request& request) {
                 errors.hdr_flip);
 }
 
-/// The probability that a mean of normal numbers is off by more than `z` standard
-/// errors, where the standard error is estimated from the same numbers: the two tails
-/// of Student's distribution.
-/// \param z     Above 0.
-/// \param runs  At least 2.
+/// The probability that a mean of normally distributed numbers is off by more than `z`
+/// standard errors, on either side. The standard error is estimated from the same
+/// numbers, which gives Student's distribution.
+/// \param z     The number of standard errors, above 0.
+/// \param runs  How many numbers, at least 2.
 double chance_beyond(double z, std::size_t runs) {
     const double freedom = double(runs) - 1;
-    constexpr int steps = 1000; // of the midpoint rule, from 0 to z
+    constexpr int steps = 1000; // steps of the midpoint rule, from 0 to z
     double inside = 0;
     for (int i = 0; i < steps; ++i) {
         const double t = z * (i + 0.5) / steps;
@@ -172,8 +172,8 @@ double chance_beyond(double z, std::size_t runs) {
     return 1 - 2 * scale * inside;
 }
 
-/// Compares the mean of the picture and its pieces block by block: which blocks are off
-/// by more than their noise?
+/// Compares the mean of several runs with the reference, block by block, and finds the
+/// blocks that differ by more than their noise.
 void blocks(const Image& image, const Image& reference, const Request& request) {
     std::vector<Image> runs{image};
     for (const std::string& path : request.pieces) {
@@ -215,7 +215,7 @@ void blocks(const Image& image, const Image& reference, const Request& request) 
     examples::save_text(request.blocks, table);
 }
 
-/// A number for each pixel, and the colours to draw it with.
+/// A map of numbers, and the colours in which it is drawn.
 void save_map(const Image& image, const Image& reference, const Request& request,
               const std::string& path) {
     Map map = make_image<double>(image.width, image.height);

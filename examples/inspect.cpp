@@ -1,14 +1,14 @@
 /// \file inspect.cpp
-/// \brief What a mesh file or an EXR file has in it, and what is odd about it:
+/// \brief Prints the content of a mesh file or an EXR file, and its problems:
 /// ljus-inspect.
 ///
 ///     ljus-inspect teapot.obj
 ///     ljus-inspect duck.glb --picture duck.png
 ///     ljus-inspect room.exr
 ///
-/// It prints what was read and what add_meshes() makes of it, then each problem with
-/// its place in the file, and what is done about it; of an EXR file the layers and the
-/// range of their values. The picture is path-traced.
+/// For a mesh file the program prints what was read, what add_meshes() makes of each
+/// material, and each problem with its place in the file. For an EXR file it prints the
+/// layers and the range of their values. The picture is path-traced.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ namespace {
 
 using namespace ljus;
 
-/// What add_meshes() makes of a material.
+/// The kind of surface that add_meshes() makes of a material, in words.
 std::string surface_text(const MeshMaterial& is) {
     std::string text = is.is_glass()    ? "glass of index " + to_text(is.index)
                        : is.is_mirror() ? "mirror of " + to_text(Vec3(is.specular))
@@ -98,8 +98,9 @@ void print_content(const LoadedMesh& loaded) {
     std::printf("%s%s", odd.empty() ? "nothing is odd\n" : "odd:\n", odd.c_str());
 }
 
-/// The camera of this name, or the first one if the name is empty. Without cameras, one
-/// in front of all meshes, a little to the right and above.
+/// The camera of this name, or the first camera of the file if the name is empty. If
+/// the file has no camera: a camera in front of all meshes, a little to the right and
+/// above.
 Camera camera_of(const LoadedMesh& loaded, const std::string& name) {
     std::string names;
     for (const MeshCameraT<float>& one : loaded.cameras) {
@@ -116,7 +117,8 @@ Camera camera_of(const LoadedMesh& loaded, const std::string& name) {
                     .vfov_degrees = 40});
 }
 
-/// A picture of all meshes in their own colours; under a sky if nothing glows.
+/// A picture of all meshes in their own colours. If nothing in the file emits light, a
+/// sky lights them.
 Image picture_of(const LoadedMesh& loaded, const Camera& camera) {
     Scene<Shapes<Mesh>,
           Materials<Lambertian, Mirror, Glossy, Glass, MeshPicture, MeshMetalPicture,
@@ -167,7 +169,7 @@ void body(examples::CommandLine& line) {
     line.about(
         "Prints what a mesh file (OBJ, PLY, STL, glTF) has in it, and what is odd "
         "about it; or the layers of an EXR file.");
-    line.file_types({".obj"}); // parse() tries no folder for files of its own
+    line.file_types({".obj"}); // parse() then creates no folder
     line.without({"--quality", "--seed", "--threads", "--width", "--height", "--rays",
                   "--out", "--quiet"});
     line.add_positional("MESH", path, "The file");

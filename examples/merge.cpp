@@ -22,7 +22,7 @@
 
 namespace {
 
-/// The files that the user named; a folder stands for all slices in it.
+/// The files that the user has named. A folder stands for all slices in it.
 std::vector<std::string> files_of(const std::vector<std::string>& names) {
     std::vector<std::string> files;
     for (const std::string& name : names) {
@@ -58,7 +58,7 @@ void body(examples::CommandLine& line) {
     const examples::MergedPicture merged = examples::merge_slices(slices);
     if (merged.wide) {
         examples::save_picture(merged.image, path, merged.exposure);
-    } else { // the numbers were float, so this is exact
+    } else { // exact, because the numbers were float
         auto image = ljus::make_image(merged.image.width, merged.image.height);
         std::transform(merged.image.pixels.begin(), merged.image.pixels.end(),
                        image.pixels.begin(),

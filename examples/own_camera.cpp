@@ -1,5 +1,5 @@
 /// \file own_camera.cpp
-/// \brief The report's room through a fisheye: a camera that the library does not know.
+/// \brief Renders the report's room through a fisheye, a camera of the reader's own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

@@ -6,19 +6,20 @@
 
 #include "ljus/scene/camera.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
 
-/// A lens that shows a whole hemisphere, or more of it, in a disc: the distance from the
-/// middle of the picture is in proportion to the angle.
+/// A lens that shows a hemisphere, or more, in a disc. The distance from the middle of
+/// the picture is proportional to the angle from the axis.
 struct Fisheye {
     using Scalar = float;      ///< The precision.
-    ljus::Camera at{};         ///< Where it stands, and what it looks at.
-    float field_degrees = 180; ///< From one edge of the disc to the other.
+    ljus::Camera at{};         ///< Position and directions of the camera.
+    float field_degrees = 180; ///< Angle from one edge of the disc to the other.
 };
 
 // [camera_ray]
-/// The ray through a point of the picture; beside the disc, it goes nowhere.
+/// The ray through a point of the picture. Outside the disc the ray is empty: it has
+/// t_max 0.
 template <ljus::StreamLike Stream>
 ljus::Ray camera_ray(const Fisheye& eye, const ljus::Vec2& pixel, int width, int height,
                      Stream& /*no number is drawn*/) {

@@ -1,5 +1,5 @@
 /// \file own_kernel.cpp
-/// \brief A caustics map shown through a kernel that the library does not know.
+/// \brief Shows a caustics map through a kernel of the reader's own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

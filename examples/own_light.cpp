@@ -1,5 +1,5 @@
 /// \file own_light.cpp
-/// \brief Two stage lamps in a dark room: a type of light that the library does not know.
+/// \brief Renders two stage lamps in a dark room, a type of light of the reader's own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

@@ -3,20 +3,20 @@
 #pragma once
 #include "ljus/lights/light.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
 using ljus::Rgb, ljus::Vec2, ljus::Vec3;
-constexpr float two_pi = 2 * std::numbers::pi_v<float>; ///< A hemisphere, in sr.
+constexpr float two_pi = 2 * std::numbers::pi_v<float>; ///< A hemisphere in sr.
 
-/// A lamp without a size: at an angle from its axis it has I cos^n of that angle.
+/// A lamp without a size. Its intensity is I cos^n of the angle from its axis.
 struct StageLamp {
     using Scalar = float; ///< The precision.
-    Vec3 position{0};     ///< In scene units.
-    Vec3 axis{0, -1, 0};  ///< Unit; where it shines to.
-    Rgb intensity{1};     ///< I, along the axis, W/sr.
-    float exponent = 20;  ///< n: the larger, the narrower its beam.
+    Vec3 position{0};     ///< Position, in scene units.
+    Vec3 axis{0, -1, 0};  ///< Axis of the beam, a unit vector.
+    Rgb intensity{1};     ///< The intensity I along the axis, W/sr.
+    float exponent = 20;  ///< The exponent n; a large one makes a narrow beam.
 };
-/// Refuses a lamp that no picture can be made with.
+/// Refuses a lamp with a number out of range.
 inline void check(const StageLamp& lamp) {
     ljus::require_finite("stage lamp.position", lamp.position);
     ljus::require(std::abs(glm::length(lamp.axis) - 1) < 1e-4f, "stage lamp.axis",
@@ -26,17 +26,17 @@ inline void check(const StageLamp& lamp) {
                   lamp.exponent, "within [0, 1000]");
 }
 // [fall-off]
-/// The intensity over the hemisphere, 2 pi I / (n + 1).
+/// The flux of the lamp, W: the intensity integrated, 2 pi I / (n + 1).
 inline Rgb power(const StageLamp& lamp) {
     return two_pi / (lamp.exponent + 1) * lamp.intensity;
 }
-/// The share of that which goes in a direction, per steradian.
+/// The fraction of the flux that goes in a direction, per steradian.
 inline float pdf_emission(const StageLamp& lamp, const Vec3&, const Vec3& wo) {
     const float cosine = glm::dot(wo, lamp.axis);
-    if (!(cosine > 0)) return 0; // behind it, or NaN
+    if (!(cosine > 0)) return 0; // behind the lamp, or NaN
     return (lamp.exponent + 1) / two_pi * std::pow(cosine, lamp.exponent);
 }
-/// What arrives at a point along a shadow ray: intensity / distance^2.
+/// The light that arrives at a point along a shadow ray: intensity / distance^2.
 inline std::optional<ljus::LightSampleT<float>>
 sample_light(const StageLamp& lamp, const Vec3& from, const Vec2&, float) {
     const Vec3 way = lamp.position - from, wi = glm::normalize(way);
@@ -45,11 +45,11 @@ sample_light(const StageLamp& lamp, const Vec3& from, const Vec2&, float) {
     return {{{.position = lamp.position, .normal = -wi}, wi, sent / dot(way, way)}};
 }
 // [fall-off]
-/// Where a photon starts.
+/// The point where a photon starts.
 inline Vec3 emission_point(const StageLamp& lamp, const Vec2&, float) {
     return lamp.position;
 }
-/// Where it goes: cos^(n + 1) of the angle is uniform.
+/// The direction of a photon. The number cos^(n + 1) of its angle is uniform.
 inline Vec3 sample_emission(const StageLamp& lamp, const Vec3&, const Vec2& u) {
     const float z = std::pow(1 - u.x, 1 / (lamp.exponent + 1));
     const float r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = two_pi * u.y;

@@ -1,5 +1,5 @@
 /// \file own_material.cpp
-/// \brief Three balls of a material that the library does not know.
+/// \brief Renders three balls of a material of the reader's own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

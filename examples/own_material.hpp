@@ -1,5 +1,5 @@
 /// \file own_material.hpp
-/// \brief A material of the reader's own: the full moon's.
+/// \brief A material of the reader's own: the surface of the full moon.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -8,30 +8,30 @@
 #include "ljus/math/require.hpp"
 #include "ljus/math/sampling.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
 using ljus::Lobes, ljus::Rgb, ljus::Vec3;
 
-/// Minnaert's surface: darker towards its rim, the more so the larger k; 1 is Lambert.
+/// Minnaert's surface. With k = 1 it is Lambertian; above 1 a ball has a darker rim.
 struct Moon {
     using Scalar = float;  ///< The precision of its numbers.
-    ljus::Rgb color{0.5f}; ///< Share that comes back along the normal.
-    float k = 1.5f;        ///< At least 1.
+    ljus::Rgb color{0.5f}; ///< Albedo for light along the normal.
+    float k = 1.5f;        ///< Exponent, at least 1.
 };
 
-/// What there is: a diffuse part.
+/// The lobes of the material: one diffuse lobe.
 inline Lobes lobes(const Moon&) {
     return Lobes::diffuse;
 }
 
-/// f = color (k + 1)/(2 pi) (cos_i cos_o)^(k-1), in 1/sr.
+/// f = color (k + 1)/(2 pi) (cos_i cos_o)^(k-1) in 1/sr, with the cosines of wi and wo.
 inline Rgb evaluate(const Moon& m, const Vec3& wo, const Vec3& wi) {
     if (!ljus::same_side(wo, wi)) return Rgb{0};
     const float scale = (m.k + 1) / (2 * std::numbers::pi_v<float>);
     return scale * std::pow(wo.z * wi.z, m.k - 1) * m.color;
 }
 
-/// The density of sample(): the cosine over pi, on wo's side.
+/// The density of sample(), per steradian: cos_i/pi on the side of `wo`.
 inline float pdf(const Moon&, const Vec3& wo, const Vec3& wi,
                  Lobes which = Lobes::all) {
     if (!has(which, Lobes::diffuse) || !ljus::same_side(wo, wi)) return 0;
@@ -39,7 +39,7 @@ inline float pdf(const Moon&, const Vec3& wo, const Vec3& wi,
 }
 
 // [sample]
-/// A direction with that density, and the weight f cos/pdf.
+/// A direction with the density pdf(), and the weight f cos_i/pdf.
 inline std::optional<ljus::BsdfSample> sample(const Moon& m, const Vec3& wo,
                                               const Vec3& u, ljus::Transport,
                                               Lobes which = Lobes::all) {
@@ -50,7 +50,7 @@ inline std::optional<ljus::BsdfSample> sample(const Moon& m, const Vec3& wo,
     return ljus::diffuse_sample(wi, weight, pdf(m, wo, wi));
 }
 // [sample]
-/// Refuses what would make light.
+/// Refuses a material that would create light.
 inline void check(const Moon& m) {
     ljus::require_unit("moon.color", m.color);
     ljus::require(m.k >= 1 && m.k <= 100, "moon.k", m.k, "within [1, 100]");

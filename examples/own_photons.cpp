@@ -1,5 +1,6 @@
 /// \file own_photons.cpp
-/// \brief The light in a cup, by photons that a program of its own traces and stores.
+/// \brief Renders the light in a cup by photons that the program traces and stores
+/// itself.
 // runs in the folder of its picture
 
 #include <ljus/io/png.hpp>
@@ -13,15 +14,15 @@ namespace {
 
 using ljus::Vec3, reader::OwnPhoton;
 
-/// Where a ray within the cup meets its wall, x^2 + y^2 = 1.
+/// The distance at which a ray within the cup meets the wall x^2 + y^2 = 1.
 float to_wall(const Vec3& from, const Vec3& d) {
     const float a = d.x * d.x + d.y * d.y, b = from.x * d.x + from.y * d.y;
     const float c = from.x * from.x + from.y * from.y - 1;
     return (std::sqrt(b * b - a * c) - b) / a;
 }
 
-/// Photons of a lamp that lights the opening, z = 0.8, evenly. They arrive on the
-/// floor, z = 0, straight or from the wall, which is a mirror.
+/// Traces the photons of a lamp that lights the opening of the cup, at z = 0.8, evenly.
+/// Photons arrive on the floor, at z = 0, directly or from the wall, which is a mirror.
 std::vector<OwnPhoton> trace(int count) {
     const Vec3 lamp{1.6f, 0, 1.6f};
     const float flux = 10.0f / float(count); // W
@@ -29,7 +30,7 @@ std::vector<OwnPhoton> trace(int count) {
     for (int i = 0; i < count; ++i) {
         auto stream = ljus::random_stream(1, ljus::Pass::user, 0, std::uint64_t(i));
         const ljus::Vec2 disc = ljus::sample_concentric_disc(ljus::next_2d(stream));
-        Vec3 from{disc.x, disc.y, 0.8f}; // through the opening
+        Vec3 from{disc.x, disc.y, 0.8f}; // a point of the opening
         Vec3 d = glm::normalize(from - lamp);
         for (int bounces = 0; bounces < 10; ++bounces) {
             const float floor = -from.z / d.z, wall = to_wall(from, d);
@@ -47,7 +48,7 @@ std::vector<OwnPhoton> trace(int count) {
 
 } // namespace
 
-/// Draws the floor into own_photons.png: straight light blue, reflected light orange.
+/// Draws the floor into own_photons.png: direct light blue, reflected light orange.
 int main() {
     const reader::OwnMap map(trace(400000));
     ljus::Image image = ljus::make_image(300, 300);

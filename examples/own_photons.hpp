@@ -10,26 +10,26 @@
 #include "ljus/photons/irradiance_estimate.hpp"
 #include "ljus/photons/kernel.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
 
 // [photon]
-/// A photon that knows how often it was reflected, which the library's does not.
+/// A photon that also stores how often it was reflected.
 struct OwnPhoton {
-    ljus::Vec3 position{0};  ///< In scene units.
-    ljus::Vec3 direction{0}; ///< Of travel, unit.
-    ljus::Rgb flux{0};       ///< In W.
-    int bounces = 0;         ///< On the way.
+    ljus::Vec3 position{0};  ///< Position, in scene units.
+    ljus::Vec3 direction{0}; ///< Direction of travel, unit.
+    ljus::Rgb flux{0};       ///< Flux, W.
+    int bounces = 0;         ///< Number of reflections.
 };
 // [photon]
 
 // [tree]
 /// Photons in the order of their tree, so that sorted[i] belongs to tree.point(i).
 struct OwnMap {
-    ljus::KdTree8 tree;            ///< Their positions.
-    std::vector<OwnPhoton> sorted; ///< All of them.
+    ljus::KdTree8 tree;            ///< The positions of the photons.
+    std::vector<OwnPhoton> sorted; ///< The photons.
 
-    /// Sorts photons that were traced.
+    /// Builds the tree and sorts the photons.
     explicit OwnMap(const std::vector<OwnPhoton>& photons) {
         std::vector<ljus::Vec3> positions;
         for (const OwnPhoton& photon : photons) positions.push_back(photon.position);
@@ -40,11 +40,11 @@ struct OwnMap {
 // [tree]
 
 // [irradiance]
-/// The irradiance at a point by the photons with a number of bounces, in W/m^2.
+/// The irradiance at a point from photons with a given number of bounces, W/m^2.
 /// \param map      The photons.
 /// \param x        The point.
-/// \param normal   Of the side that is lit; photons travel against it.
-/// \param radius   Of the disc of photons, in scene units.
+/// \param normal   Unit normal on the lit side; photons travel against it.
+/// \param radius   Radius of the disc of photons, in scene units.
 /// \param bounces  Only photons with this number count.
 inline ljus::Rgb irradiance(const OwnMap& map, const ljus::Vec3& x,
                             const ljus::Vec3& normal, float radius, int bounces) {
@@ -60,17 +60,17 @@ inline ljus::Rgb irradiance(const OwnMap& map, const ljus::Vec3& x,
 // [irradiance]
 
 // [library]
-/// The same photons in the library's map, without their bounces.
+/// Copies photons into a map of the library, without their bounces.
 inline ljus::PhotonMap library_map(const std::vector<OwnPhoton>& photons) {
     std::vector<ljus::Photon> copies;
     for (const OwnPhoton& photon : photons)
         copies.push_back({.position = photon.position,
                           .direction = photon.direction,
-                          .flux = photon.flux}); // no normal: of any surface
+                          .flux = photon.flux}); // no normal: counts on any surface
     return ljus::make_photon_map(copies);
 }
 
-/// The irradiance at a point by all of them, in W/m^2.
+/// The irradiance at a point from all photons of a map, W/m^2.
 inline ljus::Rgb irradiance(const ljus::PhotonMap& map, const ljus::Vec3& x,
                             const ljus::Vec3& normal, float radius) {
     return estimate_irradiance(map, {.position = x, .normal = normal}, normal,

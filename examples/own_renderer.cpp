@@ -1,6 +1,6 @@
 /// \file own_renderer.cpp
-/// \brief The report's room by ambient occlusion: a renderer that the library does not
-/// know.
+/// \brief Renders the report's room by ambient occlusion, a renderer of the reader's
+/// own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

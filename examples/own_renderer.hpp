@@ -4,23 +4,23 @@
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/path/renderer.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
 
 // [renderer]
-/// How open each surface is: the share of the directions above it, weighted by the
-/// cosine, in which nothing lies within a reach.
+/// Shows how open each surface is: the fraction of the directions above it, weighted by
+/// the cosine, in which no surface lies within a given distance.
 template <typename World>
 class AmbientOcclusion {
 public:
-    using Stream = ljus::RandomStream; ///< What render() gives it to draw from.
+    using Stream = ljus::RandomStream; ///< The random stream that render() passes.
 
     /// \param world  Must outlive the renderer.
-    /// \param reach  In scene units.
+    /// \param reach  The distance within which surfaces count, in scene units.
     AmbientOcclusion(ljus::WorldRef<World> world, float reach)
         : world_(world), reach_(reach) {}
-    const World& world() const { return world_.get(); } ///< What is rendered.
-    float reach() const { return reach_; }              ///< In scene units.
+    const World& world() const { return world_.get(); } ///< The world.
+    float reach() const { return reach_; }              ///< The distance.
 
 private:
     ljus::WorldRef<World> world_;
@@ -32,7 +32,7 @@ AmbientOcclusion(const World&, float) -> AmbientOcclusion<World>;
 // [renderer]
 
 // [radiance]
-/// One ray to the first surface, and one from there.
+/// Sends one ray to the first surface, and one ray on from there.
 template <typename World, typename Context>
 ljus::Rgb radiance(const AmbientOcclusion<World>& renderer, const ljus::Ray& ray,
                    Context& context) {
@@ -40,7 +40,7 @@ ljus::Rgb radiance(const AmbientOcclusion<World>& renderer, const ljus::Ray& ray
     const auto vertex = next_vertex(renderer.world(), path, context.stream);
     if (!vertex) return ljus::Rgb{1};
     ljus::Vec3 up = ljus::sample_cosine_hemisphere(ljus::next_2d(context.stream));
-    if (vertex->wo.z < 0) up.z = -up.z; // the side that is seen
+    if (vertex->wo.z < 0) up.z = -up.z; // on the visible side
     ljus::Ray out = spawn_ray(vertex->point, to_world(vertex->frame, up), vertex->time);
     out.t_max = renderer.reach();
     ++context.counts.bounce_rays;

@@ -1,5 +1,5 @@
 /// \file own_shape.cpp
-/// \brief A room with crates: a shape that the library does not know.
+/// \brief Renders a room with crates, a shape of the reader's own.
 // runs in the folder of its picture
 
 #include <ljus/ljus.hpp>

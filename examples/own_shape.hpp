@@ -5,17 +5,17 @@
 
 #include "ljus/geometry/shape.hpp"
 
-/// What a reader has written.
+/// Code that a reader of the book has written.
 namespace reader {
-/// All points between two corners.
+/// A box with faces along the axes, given by two corners.
 struct Crate {
     ljus::Vec3 low{-1}; ///< The corner of least x, y, z.
-    ljus::Vec3 high{1}; ///< The corner across.
+    ljus::Vec3 high{1}; ///< The opposite corner.
 };
 
 // [intersect]
-/// Where a ray enters the box, or leaves it: between the last plane of three that it
-/// enters and the first that it leaves. Infinities of 1/0 are in order, NaN is a miss.
+/// The distance at which a ray enters the box or, from inside, leaves it. The ray is in
+/// the box where it is between the two planes of all three axes. NaN is a miss.
 inline std::optional<float> intersect(const ljus::Ray& ray, const Crate& box) {
     const ljus::Vec3 a = (box.low - ray.origin) / ray.direction;
     const ljus::Vec3 b = (box.high - ray.origin) / ray.direction;
@@ -29,8 +29,8 @@ inline std::optional<float> intersect(const ljus::Ray& ray, const Crate& box) {
 // [intersect]
 
 // [surface_point]
-/// The point that a ray hit: its normal is the axis along which it is farthest out, and
-/// it is put onto that side.
+/// The point that a ray has hit. Its normal is along the axis on which the point is
+/// farthest out, and the point is moved onto that face.
 inline ljus::SurfacePoint surface_point(const Crate& box, const ljus::Ray& ray,
                                         const ljus::ShapeHitT<float>& hit) {
     const ljus::Vec3 middle = (box.low + box.high) / 2.0f;

@@ -1,6 +1,6 @@
 /// \file own_vector.cpp
-/// \brief A small path tracer with a vector type, a scene and a loop of its own; the
-/// formulas are the library's.
+/// \brief A small path tracer with its own vector type, scene and loop. The formulas
+/// come from the library.
 // runs in the folder of its picture
 
 #include <algorithm>

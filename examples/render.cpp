@@ -1,5 +1,5 @@
 /// \file render.cpp
-/// \brief Renders a scene file: by photon mapping, or by path tracing as a reference.
+/// \brief Renders a scene file by photon mapping, or by path tracing as a reference.
 ///
 ///     render scene.json --preset fast --out picture.png
 ///     render scene.json --renderer path --rays 1000 --out picture.pfm
@@ -51,7 +51,7 @@ using namespace ljus;
 using Request = examples::RenderRequest;
 using examples::RendererName;
 
-/// A scene file, closed, with its camera.
+/// The closed scene of a scene file, with its camera.
 template <typename S>
 struct FileRoom {
     World<S> world;                           ///< Shapes, materials and lights.
@@ -60,8 +60,8 @@ struct FileRoom {
 template <typename S>
 FileRoom(World<S>, LensCameraT<typename S::Scalar>) -> FileRoom<S>;
 
-/// Renders, or explains one pixel.
-/// \return What was rendered; no image if a pixel was explained.
+/// Renders the picture, or explains one pixel.
+/// \return The picture; without an image if a pixel was explained.
 template <typename Renderer, std::floating_point T>
 RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
                        const Request& r) {
@@ -77,7 +77,7 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
     RenderedLayersT<T> result;
     RenderedT<T>& rendered = result.rendered;
     if (r.more_rays > 0) {
-        picture.samples += r.more_rays; // at most
+        picture.samples += r.more_rays; // the largest mean number
         auto adaptive = render_adaptive(renderer, camera, picture,
                                         {.first = r.picture.samples,
                                          .more = r.more_rays,
@@ -91,7 +91,7 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
         rendered = render_region(renderer, camera, picture, examples::region_of(r));
     } else if (r.part.count > 0) {
         const RowRange rows = examples::rows_of(r.part, picture.height);
-        if (rows.first == rows.last) return result; // more slices than rows
+        if (rows.first == rows.last) return result; // if slices outnumber rows
         rendered = render_rows(renderer, camera, picture, rows);
     } else {
         rendered = render(renderer, camera, picture);
@@ -101,7 +101,7 @@ RenderedLayersT<T> run(const Renderer& renderer, const LensCameraT<T>& camera,
     return result;
 }
 
-/// A sentence of the library with the names of options in place of its own.
+/// A remark of the library, in which names of settings are replaced by options.
 std::string in_options(std::string sentence) {
     constexpr std::pair<std::string_view, std::string_view> names[]{
         {"max_memory", "--photon-memory"},
@@ -113,13 +113,14 @@ std::string in_options(std::string sentence) {
     return sentence;
 }
 
-/// Prints the remarks about a photon mapper, and keeps them for the picture's JSON.
+/// Prints the remarks about a photon mapper, and keeps them for the JSON file of the
+/// picture.
 void tell_maps(const std::string& remarks, Request& r) {
     r.remarks = in_options(remarks);
     std::fputs(r.remarks.c_str(), stderr);
 }
 
-/// Prints remarks on the terminal, a line each.
+/// Prints remarks on the terminal, one per line.
 void tell(const std::vector<std::string>& remarks) {
     for (const std::string& remark : remarks)
         std::fprintf(stderr, "%s\n", remark.c_str());
@@ -170,7 +171,7 @@ RenderedLayersT<typename S::Scalar> map_photons(const FileRoom<S>& room, Request
                         maps.fog_caustics.photons.size() + maps.fog.photons.size());
     }
     if (passes.cache) fill_cache(mapper, room.camera, r);
-    r.photon = mapper.settings(); // with the chosen radii and fractions
+    r.photon = mapper.settings(); // including the chosen radii and fractions
     if (!r.quiet && !maps.caustics.empty()) examples::print_caustics(r.photon);
     return run(mapper, room.camera, r);
 }
@@ -207,7 +208,8 @@ RenderedT<typename S::Scalar> render_passes(const FileRoom<S>& room, Request& r)
     return rendered;
 }
 
-/// Renders a picture within a time or with an error, by settings that it chooses.
+/// Renders a picture within a given time or with a given error, with settings that are
+/// chosen for that.
 template <typename S>
 RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& r) {
     if (room.world.has_fog())
@@ -225,7 +227,7 @@ RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& 
     std::fputs(r.remarks.c_str(), stderr);
     r.photon = kept.recipe.settings;
     r.picture.samples = kept.recipe.rays;
-    r.preset = static_cast<Preset>(kept.choice.recipe); // one per preset
+    r.preset = static_cast<Preset>(kept.choice.recipe); // one recipe each
     r.kept = {
         {"why", kept.why},
         {r.promise.seconds > 0 ? "seconds" : "error",
@@ -250,12 +252,12 @@ RenderedT<typename S::Scalar> render_promised(const FileRoom<S>& room, Request& 
     return std::move(kept.rendered);
 }
 
-/// Draws the scene, with the photons of one kind or of all as dots.
+/// Draws the scene, and photons of one kind or of all kinds as dots.
 template <typename S>
 RenderedT<typename S::Scalar> draw_photons(const FileRoom<S>& room, const Request& r) {
     using T = typename S::Scalar;
     using enum PhotonKind;
-    const CameraT<T>& camera = room.camera.pinhole; // dots are sharp
+    const CameraT<T>& camera = room.camera.pinhole; // without the lens
     RenderedT<T> drawn{
         scene_drawing(room.world, camera, r.picture.width, r.picture.height)};
     for (const bool caustics : {false, true}) {
@@ -308,7 +310,7 @@ std::string path_of(const Request& r, const examples::Options& options) {
                         std::to_string(r.part.count) + ".slice");
 }
 
-/// Makes sure that all files can be written, and that none replaces another one.
+/// Makes sure that all files can be written, and that no file replaces another one.
 void check_files(const Request& r) {
     examples::check_pass_files(r.passes);
     const bool alone = r.part.count > 0 || !r.photons.empty();
@@ -325,8 +327,8 @@ void check_files(const Request& r) {
     examples::require_outputs(files, r.reads);
 }
 
-/// Saves a picture, and beside it a file that says how it was made; or a slice, which
-/// holds both.
+/// Saves a picture, and beside it a JSON file with its settings; or saves a slice,
+/// which holds both.
 template <std::floating_point T>
 void save_result(const Request& r, nlohmann::ordered_json json,
                  const RenderedLayersT<T>& result, double seconds) {
@@ -352,7 +354,7 @@ void save_result(const Request& r, nlohmann::ordered_json json,
     save_file(r.file + ".json", Bytes(text.begin(), text.end()));
 }
 
-/// Prints what is about to be done.
+/// Prints a line about the work that begins.
 template <AnyWorld W>
 void print_heading(const W& world, std::string name, const Request& r) {
     if (name.empty()) name = std::filesystem::path(r.scene).stem().string();
@@ -371,7 +373,7 @@ void print_heading(const W& world, std::string name, const Request& r) {
                 how.c_str());
 }
 
-/// Prints what would run, or what the types of the scene provide.
+/// Prints the passes that would run, or the hooks of the types of the scene.
 template <AnyWorld W>
 void print_plan(const W& world, const Request& r) {
     if (r.plan && r.renderer == RendererName::photon) {
@@ -385,7 +387,7 @@ void print_plan(const W& world, const Request& r) {
         for (const std::string& line : survey_hooks(world)) std::puts(line.c_str());
 }
 
-/// Remarks on a camera in a surface, and on a scene without any.
+/// Prints a remark if the camera lies in a surface, or if the scene has no surface.
 template <typename S>
 void tell_place(const FileRoom<S>& room) {
     using T = typename S::Scalar;
@@ -406,7 +408,7 @@ void tell_place(const FileRoom<S>& room) {
     }
 }
 
-/// Remarks on a whole picture of a scene that no light has reached.
+/// Prints a remark if no light has reached a whole picture.
 template <std::floating_point T>
 void tell_dark(const ImageT<T>& image, const Request& r) {
     if (r.part.count > 0 || !r.region.empty()) return;
@@ -416,7 +418,7 @@ void tell_dark(const ImageT<T>& image, const Request& r) {
           "be in a body, or the lamps may face away"});
 }
 
-/// Does what the user asks for, in one precision.
+/// Does the work that the user asks for, in one precision.
 template <std::floating_point T>
 void run_request(examples::CommandLine& line, Request& r,
                  const examples::Options& options) {
@@ -427,7 +429,7 @@ void run_request(examples::CommandLine& line, Request& r,
     r.file = path_of(r, options);
     if (!r.quiet || r.plan) print_heading(room.world, loaded.name, r);
     const bool prints = r.plan || r.hooks;
-    // Refuse wrong pixels and layers before any work is done.
+    // Wrong pixels and layers are refused before the work begins.
     if (!r.region.empty()) (void)region_of(r);
     if (!r.layers.empty()) (void)examples::layer_settings(r.layers);
     if (!r.pixel.empty())

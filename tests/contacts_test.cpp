@@ -818,7 +818,7 @@ TEST_CASE("contacts: the survey says what lies in one place, and which rule deci
               s.add(Sphere{{-3, 0, 1}, 1}, s.add(Glass{}));
           })
               .empty());
-    said("Mesh 0 around (0, 0, 0): light passes from the body to what is opaque",
+    said("Mesh 0 around (0, 0, 0): light passes from the body to the opaque surface",
          [](auto& s, auto grey) {
              s.add(face(0.0f, true, 9.0f), grey);
              s.add(box_mesh<float>({-1, -1, 0}, {1, 1, 1}), s.add(Glass{}));
@@ -836,7 +836,7 @@ TEST_CASE("contacts: the survey says what lies in one place, and which rule deci
         s.add(face(0.0f, true), s.add(Glass{}));
         s.add(face(0.0f, true), s.add(Glass{1.2f}));
     });
-    said("the lamp is met", [](auto& s, auto grey) {
+    said("rays meet the lamp there", [](auto& s, auto grey) {
         s.add(face(0.0f, true), grey);
         s.add(face(0.0f, true, 1.0f), grey, Rgb{1});
     });

@@ -381,8 +381,8 @@ TEST_CASE("final gathering: with too few photons gather rays go on as paths") {
     CHECK(starved.remarks == "of 500 general photons " + std::to_string(kept) +
                                  " landed twice or more, fewer than " +
                                  std::to_string(kept + 1) +
-                                 ": paths carry the light between surfaces, not "
-                                 "these\n");
+                                 ": paths carry the light between surfaces "
+                                 "instead\n");
     settings.keep_general_map = true;
     CHECK(map_of(100000).general.records.size() > std::size_t(kept));
     // No other source of indirect light asks for irradiance.

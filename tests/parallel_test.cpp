@@ -525,7 +525,7 @@ TEST_CASE(
     slice.pixels.assign(2, ljus::RgbT<double>(1));
     CHECK(said(slice) == "merged");
     const std::string refused =
-        "cannot read '" + path + "': no slice has its settings.";
+        "cannot read '" + path + "': its settings are not those of a slice.";
     auto other = slice;
     for (const std::string settings : {"", "no JSON", "[1]", "1"}) {
         other.settings = settings;

@@ -750,7 +750,7 @@ TEST_CASE("survey: every reason, in the order in which they are printed") {
     const Plan on = skip(lit, 2 * needed), off = skip(lit, 2 * needed - 1);
     CHECK(on.skipped_rays.on);
     CHECK(on.skipped_rays.why == "where " + n + " of " + twice + " photons agree");
-    CHECK(on.shadow_photons.why == "they show which shadow rays are needless");
+    CHECK(on.shadow_photons.why == "they show which shadow rays to skip");
     CHECK(on.skipped_bounces.why == "where none of " + twice + " photons is near");
     CHECK_FALSE(off.skipped_rays.on);
     CHECK(off.skipped_rays.why ==

@@ -433,8 +433,8 @@ TEST_CASE("volume_photons: what is not carried is refused, with a remedy") {
     CHECK(why({.indirect = IndirectLight::gather}) ==
           why({.indirect = IndirectLight::cache}));
     CHECK(why({.skip = {.rule = SkipRule::enough}}) ==
-          "the scene has fog, whose dimming is not in photons that make rays needless; "
-          "skip no rays, or remove the fog.");
+          "the scene has fog, and photons that say which rays to skip do not know how "
+          "much it dims; skip no rays, or remove the fog.");
     CHECK(why({.skip = {.indirect_rays = true}}) ==
           why({.skip = {.rule = SkipRule::enough}}));
     CHECK(why({.fog_estimate = {.radius = -1}}) ==

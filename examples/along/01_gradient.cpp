@@ -18,7 +18,7 @@ const int width = 200, height = 200;
 
 Vec sky(double up) { return up * Vec{0.3, 0.5, 0.9} + (1 - up) * Vec{1, 0.9, 0.8}; }
 
-// The gamma of a screen: from 0 to 255.
+// The byte, 0 to 255, that shows a colour on a screen, with a gamma.
 double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
 
 int main() {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 const double infinity = HUGE_VAL;
-const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+const double epsilon = 1e-6; // m; a hit below this is the surface that the ray leaves
 
 // A point, a direction or a colour.
 struct Vec {
@@ -49,13 +49,13 @@ Ray camera_ray(double x, double y) {
 
 Vec sky(double up) { return up * Vec{0.3, 0.5, 0.9} + (1 - up) * Vec{1, 0.9, 0.8}; }
 
-// The radiance that arrives against a ray, in W/(m^2 sr).
+// The radiance that arrives along a ray, in W/(m^2 sr).
 Vec radiance(Ray ray) {
     if (distance(ray, ball) < infinity) return {0.8, 0.6, 0.2};
     return sky(0.5 + ray.direction.y);
 }
 
-// The gamma of a screen: from 0 to 255.
+// The byte, 0 to 255, that shows a colour on a screen, with a gamma.
 double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
 
 int main() {

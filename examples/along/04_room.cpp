@@ -6,7 +6,7 @@
 
 const double pi = std::numbers::pi;
 const double infinity = HUGE_VAL;
-const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+const double epsilon = 1e-6; // m; a hit below this is the surface that the ray leaves
 
 // A point, a direction or a colour.
 struct Vec {
@@ -69,7 +69,7 @@ double distance(Ray ray, Wall wall) {
     return cosine < 0 && t > epsilon ? t : infinity;
 }
 
-// What a ray meets first.
+// The first surface that a ray meets.
 struct Hit {
     double t = infinity;
     Vec point, normal, albedo;
@@ -88,7 +88,7 @@ Hit intersect(Ray ray) {
     return hit;
 }
 
-// What a diffuse surface reflects of the light that comes straight from the lamp.
+// The direct light that a diffuse surface reflects: light straight from the lamp.
 Vec direct_light(Hit hit) {
     const Vec to = lamp - hit.point, direction = unit(to);
     const double square = dot(to, to), cosine = dot(direction, hit.normal);
@@ -106,10 +106,10 @@ Ray camera_ray(double x, double y) {
     return {eye, unit({0.9 * (x / width - 0.5), 0.9 * (0.5 - y / height), -1})};
 }
 
-// The radiance that arrives against a ray, in W/(m^2 sr).
+// The radiance that arrives along a ray, in W/(m^2 sr).
 Vec radiance(Ray ray) { return direct_light(intersect(ray)); }
 
-// The gamma of a screen: from 0 to 255.
+// The byte, 0 to 255, that shows a colour on a screen, with a gamma.
 double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
 
 int main() {

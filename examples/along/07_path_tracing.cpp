@@ -7,7 +7,7 @@
 
 const double pi = std::numbers::pi;
 const double infinity = HUGE_VAL;
-const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+const double epsilon = 1e-6; // m; a hit below this is the surface that the ray leaves
 
 // A point, a direction or a colour.
 struct Vec {
@@ -20,7 +20,7 @@ Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec unit(Vec a) { return 1 / std::sqrt(dot(a, a)) * a; }
 
-// Random numbers in [0, 1): Marsaglia's xorshift, scrambled as by Vigna.
+// Random numbers in [0, 1), by Marsaglia's xorshift with the scrambling of Vigna.
 struct Random {
     std::uint64_t state = 1;
     double operator()() {
@@ -31,14 +31,14 @@ struct Random {
     }
 };
 
-// All directions are equally likely.
+// A random direction; all directions are equally likely.
 Vec sphere_direction(Random& random) {
     const double z = 1 - 2 * random(), phi = 2 * pi * random();
     const double r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// Above a surface, with the density cos / pi.
+// A random direction above a surface, with the density cos / pi per steradian.
 Vec cosine_direction(Vec normal, Random& random) {
     return unit(normal + sphere_direction(random));
 }
@@ -50,7 +50,7 @@ struct Ray {
 struct Sphere {
     Vec centre;
     double radius;
-    double index; // of refraction; a mirror has none: 0
+    double index; // of refraction; 0 for a mirror
 };
 
 const Sphere spheres[] = {
@@ -103,12 +103,12 @@ double distance(Ray ray, Wall wall) {
     return cosine < 0 && t > epsilon ? t : infinity;
 }
 
-// What a ray meets first.
+// The first surface that a ray meets.
 struct Hit {
     double t = infinity;
     Vec point, normal, albedo;
-    const Sphere* sphere = nullptr; // of a diffuse surface: none
-    bool after_sphere = false;      // mirror or glass came before it
+    const Sphere* sphere = nullptr; // null for a diffuse surface
+    bool after_sphere = false;      // whether mirror or glass came before
 };
 
 Hit intersect(Ray ray) {
@@ -124,7 +124,7 @@ Hit intersect(Ray ray) {
     return hit;
 }
 
-// Where a mirror or glass sends a ray: glass decides by Fresnel's equations.
+// The direction of a ray after a mirror or glass, chosen by Fresnel's equations.
 Ray scatter(Ray ray, Hit hit, Random& random) {
     const double cosine = dot(ray.direction, hit.normal);
     const Ray mirrored{hit.point, ray.direction - 2 * cosine * hit.normal};
@@ -140,7 +140,7 @@ Ray scatter(Ray ray, Hit hit, Random& random) {
     return {hit.point, eta * ray.direction + (eta * c1 - c2) * normal};
 }
 
-// The first diffuse surface on the way of a ray.
+// The first diffuse surface that a ray reaches through mirrors and glass.
 Hit trace(Ray ray, Random& random) {
     Hit hit = intersect(ray);
     for (; hit.sphere; hit.after_sphere = true) {
@@ -150,14 +150,14 @@ Hit trace(Ray ray, Random& random) {
     return hit;
 }
 
-// Russian roulette: a surface reflects by chance, and what it reflects weighs more.
+// Russian roulette: light survives by chance, and surviving light gets a larger weight.
 bool survives(Vec& weight, Vec albedo, Random& random) {
     const double chance = std::max({albedo.x, albedo.y, albedo.z});
     weight = 1 / chance * weight * albedo;
     return random() < chance;
 }
 
-// What a diffuse surface reflects of the light that comes straight from the lamp.
+// The direct light that a diffuse surface reflects: light straight from the lamp.
 Vec direct_light(Hit hit, Random& random) {
     const Vec to = lamp_point(random) - hit.point, direction = unit(to);
     const double square = dot(to, to), cosine = dot(direction, hit.normal);
@@ -177,7 +177,7 @@ Ray camera_ray(double x, double y) {
     return {eye, unit({0.9 * (x / width - 0.5), 0.9 * (0.5 - y / height), -1})};
 }
 
-// The radiance that arrives against a ray, in W/(m^2 sr).
+// The radiance that arrives along a ray, in W/(m^2 sr).
 Vec radiance(Ray ray, Random& random) {
     Vec sum, weight{1, 1, 1};
     for (int bounce = 0;; ++bounce) {
@@ -190,7 +190,7 @@ Vec radiance(Ray ray, Random& random) {
     }
 }
 
-// The gamma of a screen: from 0 to 255.
+// The byte, 0 to 255, that shows a colour on a screen, with a gamma.
 double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
 
 int main() {

@@ -9,7 +9,7 @@
 
 const double pi = std::numbers::pi;
 const double infinity = HUGE_VAL;
-const double epsilon = 1e-6; // m; what is nearer is the surface left behind
+const double epsilon = 1e-6; // m; a hit below this is the surface that the ray leaves
 
 // A point, a direction or a colour.
 struct Vec {
@@ -23,7 +23,7 @@ Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec unit(Vec a) { return 1 / std::sqrt(dot(a, a)) * a; }
 
-// Random numbers in [0, 1): Marsaglia's xorshift, scrambled as by Vigna.
+// Random numbers in [0, 1), by Marsaglia's xorshift with the scrambling of Vigna.
 struct Random {
     std::uint64_t state = 1;
     double operator()() {
@@ -34,19 +34,19 @@ struct Random {
     }
 };
 
-// All directions are equally likely.
+// A random direction; all directions are equally likely.
 Vec sphere_direction(Random& random) {
     const double z = 1 - 2 * random(), phi = 2 * pi * random();
     const double r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// Above a surface, with the density cos / pi.
+// A random direction above a surface, with the density cos / pi per steradian.
 Vec cosine_direction(Vec normal, Random& random) {
     return unit(normal + sphere_direction(random));
 }
 
-// Within a cone around an axis, all directions equally likely.
+// A random direction within a cone around an axis; all are equally likely.
 Vec cone_direction(Vec axis, double cos_max, Random& random) {
     const double cosine = 1 - random() * (1 - cos_max);
     const Vec s = sphere_direction(random);
@@ -61,7 +61,7 @@ struct Ray {
 struct Sphere {
     Vec centre;
     double radius;
-    double index; // of refraction; a mirror has none: 0
+    double index; // of refraction; 0 for a mirror
 };
 
 const Sphere spheres[] = {
@@ -114,12 +114,12 @@ double distance(Ray ray, Wall wall) {
     return cosine < 0 && t > epsilon ? t : infinity;
 }
 
-// What a ray meets first.
+// The first surface that a ray meets.
 struct Hit {
     double t = infinity;
     Vec point, normal, albedo;
-    const Sphere* sphere = nullptr; // of a diffuse surface: none
-    bool after_sphere = false;      // mirror or glass came before it
+    const Sphere* sphere = nullptr; // null for a diffuse surface
+    bool after_sphere = false;      // whether mirror or glass came before
 };
 
 Hit intersect(Ray ray) {
@@ -135,7 +135,7 @@ Hit intersect(Ray ray) {
     return hit;
 }
 
-// Where a mirror or glass sends a ray: glass decides by Fresnel's equations.
+// The direction of a ray after a mirror or glass, chosen by Fresnel's equations.
 Ray scatter(Ray ray, Hit hit, Random& random) {
     const double cosine = dot(ray.direction, hit.normal);
     const Ray mirrored{hit.point, ray.direction - 2 * cosine * hit.normal};
@@ -151,7 +151,7 @@ Ray scatter(Ray ray, Hit hit, Random& random) {
     return {hit.point, eta * ray.direction + (eta * c1 - c2) * normal};
 }
 
-// The first diffuse surface on the way of a ray.
+// The first diffuse surface that a ray reaches through mirrors and glass.
 Hit trace(Ray ray, Random& random) {
     Hit hit = intersect(ray);
     for (; hit.sphere; hit.after_sphere = true) {
@@ -161,14 +161,14 @@ Hit trace(Ray ray, Random& random) {
     return hit;
 }
 
-// Russian roulette: a surface reflects by chance, and what it reflects weighs more.
+// Russian roulette: light survives by chance, and surviving light gets a larger weight.
 bool survives(Vec& weight, Vec albedo, Random& random) {
     const double chance = std::max({albedo.x, albedo.y, albedo.z});
     weight = 1 / chance * weight * albedo;
     return random() < chance;
 }
 
-// What a diffuse surface reflects of the light that comes straight from the lamp.
+// The direct light that a diffuse surface reflects: light straight from the lamp.
 Vec direct_light(Hit hit, Random& random) {
     const Vec to = lamp_point(random) - hit.point, direction = unit(to);
     const double square = dot(to, to), cosine = dot(direction, hit.normal);
@@ -185,7 +185,7 @@ struct Photon {
 };
 using Photons = std::vector<Photon>;
 
-// The photons, wherever they land on a diffuse surface.
+// Traces photons and stores them wherever they meet a diffuse surface.
 Photons trace_photons(int n, Random& random) {
     Photons photons;
     for (int i = 0; i < n; ++i) {
@@ -201,7 +201,7 @@ Photons trace_photons(int n, Random& random) {
     return photons;
 }
 
-// The photons that the spheres send on to diffuse surfaces; n are aimed at each.
+// Aims n photons at each sphere, and stores those that reach a diffuse surface.
 Photons trace_caustics(int n, Random& random) {
     Photons photons;
     for (const Sphere& sphere : spheres)
@@ -220,8 +220,8 @@ Photons trace_caustics(int n, Random& random) {
     return photons;
 }
 
-// Makes a k-d tree: the median along an axis comes to the middle, what lies below it
-// before it and the rest behind it; and so on in both halves, along the next axis.
+// Makes a k-d tree. The median along an axis goes to the middle, the points below it go
+// before it and the others after it. Both halves continue with the next axis.
 void build(std::span<Photon> tree, int axis = 0) {
     if (tree.size() < 2) return;
     const auto half = tree.size() / 2;
@@ -232,7 +232,7 @@ void build(std::span<Photon> tree, int axis = 0) {
     build(tree.subspan(half + 1), (axis + 1) % 3);
 }
 
-// The flux of the photons within a disc, with Epanechnikov's weights of mean 1.
+// The flux of the photons within a disc, weighted by Epanechnikov's kernel of mean 1.
 Vec flux_within(std::span<const Photon> tree, const Hit& hit, double radius,
                 int axis = 0) {
     Vec flux;
@@ -251,7 +251,7 @@ Vec flux_within(std::span<const Photon> tree, const Hit& hit, double radius,
     return flux;
 }
 
-// What a diffuse surface reflects of the light that photons bring.
+// The light that a diffuse surface reflects, estimated from photons.
 Vec photon_light(const Photons& photons, const Hit& hit, double radius) {
     const double area = pi * radius * radius; // m^2
     const Vec irradiance = 1 / area * flux_within(photons, hit, radius);
@@ -267,7 +267,7 @@ Ray camera_ray(double x, double y) {
     return {eye, unit({0.9 * (x / width - 0.5), 0.9 * (0.5 - y / height), -1})};
 }
 
-// The radiance that arrives against a ray, in W/(m^2 sr).
+// The radiance that arrives along a ray, in W/(m^2 sr).
 Vec radiance(Ray ray, const Photons& photons, const Photons& caustics, Random& random) {
     const Hit hit = trace(ray, random);
     Vec sum = direct_light(hit, random) + photon_light(caustics, hit, 0.03);
@@ -276,7 +276,7 @@ Vec radiance(Ray ray, const Photons& photons, const Photons& caustics, Random& r
     return sum + hit.albedo * photon_light(photons, trace(on, random), 0.1);
 }
 
-// The gamma of a screen: from 0 to 255.
+// The byte, 0 to 255, that shows a colour on a screen, with a gamma.
 double encoded(double value) { return 255 * std::pow(std::min(value, 1.0), 1 / 2.2); }
 
 int main() {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/clock.hpp
-/// \brief How long things take.
+/// \brief Measures how long work takes.
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +13,7 @@ namespace examples {
 /// A stop watch that starts when it is made.
 class StopWatch {
 public:
-    /// Wall-clock seconds since it was made or last restarted.
+    /// Wall-clock seconds since the stop watch was made or last restarted.
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(Clock::now() - start_).count();
     }
@@ -26,8 +26,8 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Processor seconds of this program, summed over all threads: the cost of the work,
-/// even on a machine that is busy with other programs.
+/// Processor seconds of this program, summed over all threads. This measures the work
+/// of the program even if the machine is busy with other programs.
 [[nodiscard]] inline double processor_seconds() {
     return double(std::clock()) / double(CLOCKS_PER_SEC);
 }
@@ -35,12 +35,12 @@ private:
 /// The time that some work took.
 struct Timing {
     double wall = 0; ///< Wall-clock seconds.
-    double work = 0; ///< Seconds of all processors.
+    double work = 0; ///< Processor seconds, summed over all threads.
 };
 
-/// Does some work.
+/// Measures how long some work takes.
 /// \param work  Called once, without arguments.
-/// \return How long it took.
+/// \return The time of the call.
 template <typename Work>
 [[nodiscard]] Timing timed(Work&& work) {
     const StopWatch watch;
@@ -49,11 +49,11 @@ template <typename Work>
     return {watch.seconds(), processor_seconds() - before};
 }
 
-/// Nanoseconds per call, the least of several runs, since other work on the machine can
-/// only add time.
+/// The time of one call in nanoseconds. The least of several runs is taken, because
+/// other work on the machine can only add time.
 /// \param calls  The number of calls that one run of `work` makes.
-/// \param work   Called once per run; returns a number that depends on everything that
-///               it computes, so that nothing is optimised away.
+/// \param work   Called once per run; returns a number that depends on all results, so
+///               that the compiler removes no part of the work.
 /// \param runs   The number of runs.
 /// \return Wall-clock nanoseconds, including the loop around the call.
 template <typename Work>

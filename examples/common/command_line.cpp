@@ -51,11 +51,11 @@ void require_folder(const std::string& folder) {
     std::filesystem::create_directories(folder, error);
     if (error) fail(error.message());
     if (!std::filesystem::is_directory(folder, error)) fail("it is no folder");
-    // Permissions alone do not decide whether this works, so try it.
+    // Permissions alone do not decide whether a file can be written, so one is written.
     ljus::require_writable((std::filesystem::path(folder) / "probe").string());
 }
 
-// "; did you mean --preset?", if an option is near.
+// Returns "; did you mean --preset?", or nothing if no option is similar.
 std::string proposal_of_option(const CLI::App& app, const std::string& word) {
     std::vector<std::string> names;
     for (const CLI::Option* const option : app.get_options())
@@ -66,7 +66,7 @@ std::string proposal_of_option(const CLI::App& app, const std::string& word) {
     return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
-// ".png, .hdr or .pfm".
+// The words as a list: ".png, .hdr or .pfm".
 std::string list_of(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -74,7 +74,7 @@ std::string list_of(const std::vector<std::string>& words) {
     return text;
 }
 
-// What is right instead of a wrong word, after the nearest one.
+// The end of a message about a wrong word: it proposes the nearest word and lists all.
 std::string right_word(const std::string& wrong,
                        const std::vector<std::string>& words) {
     const std::string near = ljus::nearest_word(wrong, words);
@@ -82,8 +82,8 @@ std::string right_word(const std::string& wrong,
            list_of(words);
 }
 
-// One line without its full stop. It may repeat what a user typed, which can have any
-// length and any bytes.
+// A message as one line without its full stop, fit for printing. It may quote what a
+// user typed, which can have any length and any bytes.
 std::string without_end(std::string text, std::size_t limit) {
     const std::size_t end = text.find_last_not_of(" \n.");
     text.erase(end == std::string::npos ? 0 : end + 1);
@@ -102,8 +102,8 @@ bool names_a_file(std::string out) {
     return std::find(std::begin(kinds), std::end(kinds), kind) != std::end(kinds);
 }
 
-// OpenMP ends the program if it cannot start its threads, so try to start them here
-// first.
+// Starts as many threads as OpenMP will need. Otherwise OpenMP would end the program if
+// it cannot start its threads.
 void require_threads(int wanted) {
     const int count = wanted == 0 ? ljus::max_threads() : wanted;
     std::vector<std::thread> threads;
@@ -122,12 +122,11 @@ void require_threads(int wanted) {
     if (!why.empty())
         throw std::runtime_error("cannot start " + std::to_string(count) +
                                  " threads: " + why + "; --threads 1 needs none");
-    // OpenMP keeps its threads: it has them before the work takes the memory.
+    // Now OpenMP starts its threads, and keeps them, before the work needs the memory.
     ljus::parallel_blocks(count, [](long long) {}, {.threads = wanted});
 }
 
-// A stack that is too small ends the program without a word, and one that is too large
-// with OpenMP's.
+// Refuses limits of the stack with which the program would end without a clear message.
 void require_stacks() {
     constexpr double least = 256 << 10, most = 1 << 30;
     if (const char* const given = std::getenv("OMP_STACKSIZE")) {
@@ -150,9 +149,10 @@ void require_stacks() {
 #endif
 }
 
-// Whether a text is a number as all options take it: a minus sign or none, digits
-// without leading zeros, and a fraction and an exponent unless it must be whole. The
-// conversions of the libraries accept more: 010 for 8, 0x10, blanks, nan.
+// Whether a text is a number in the form that all options take: an optional minus sign,
+// digits without leading zeros and, unless the number must be whole, an optional
+// fraction and exponent. The conversions of the libraries also accept 010 for 8, 0x10,
+// blanks and nan.
 bool is_number(std::string_view text, bool whole) {
     const auto digits = [&text] {
         const std::size_t count =
@@ -179,7 +179,7 @@ bool is_number(std::string_view text, bool whole) {
     return text.empty();
 }
 
-// A whole number as to_chars() writes it; nothing for any other text.
+// The whole number in a text; nothing if the text has another form or is out of range.
 template <typename Whole>
 std::optional<Whole> whole_number(std::string_view text) {
     Whole number = 0;
@@ -191,7 +191,7 @@ std::optional<Whole> whole_number(std::string_view text) {
     return number;
 }
 
-// The parser's own conversion reads -1 as the largest seed.
+// Reads a seed. The conversion of CLI11 would read -1 as the largest seed.
 std::string take_seed(const std::string& text, std::uint64_t& seed) {
     const auto given = whole_number<std::uint64_t>(text);
     if (!given) return "it must be a whole number from 0 to 18446744073709551615";
@@ -202,7 +202,7 @@ std::string take_seed(const std::string& text, std::uint64_t& seed) {
 } // namespace
 
 std::string word_in(const std::string& spelled) {
-    // "(ljus::Sampling)9" is not an enumerator; other compilers write "...<...>(void)".
+    // "(ljus::Sampling)9" is no enumerator. Some compilers write "...<...>(void)".
     const std::size_t end = spelled.find_last_of(spelled.back() == ']' ? ']' : '>');
     const std::size_t begin = spelled.rfind(':', end) + 1;
     std::string word = spelled.substr(begin, end - begin);
@@ -238,11 +238,11 @@ struct CommandLine::Parser {
     std::vector<std::string> file_types;
     std::string out = "."; // a folder, or a file
     Options options;
-    // What each option is now, as JSON.
+    // The current value of each option, as JSON.
     std::vector<std::pair<CLI::Option*, std::function<std::string()>>> settings;
 
-    // An option: `read` returns its value as JSON, `take` sets it or says what is
-    // allowed.
+    // Adds an option. `read` returns its value as JSON. `take` sets the value, or
+    // returns which values are allowed.
     void add_setting(const std::string& name, const std::string& kind,
                      const std::string& help, std::function<std::string()> read,
                      std::function<std::string(const std::string&)> take) {
@@ -318,7 +318,7 @@ void CommandLine::add_number(const std::string& name, const std::string& help,
                   whole ? "%sa whole number from %.0f to %.0f"
                         : "%sa number from %g to %g",
                   or_zero ? "0 or " : "", least, most);
-    const auto good = [=](const std::string& text, double& number) { // NaN is not
+    const auto good = [=](const std::string& text, double& number) { // not for NaN
         return is_number(text, whole) && CLI::detail::lexical_cast(text, number) &&
                ((number >= least && number <= most) || (or_zero && number == 0));
     };
@@ -503,7 +503,7 @@ Options CommandLine::parse(const Presets& presets) {
     if (given("--out") && parser_->out.empty())
         throw std::invalid_argument("--out is empty; it must be a name");
     const std::filesystem::path out = options.out = parser_->out;
-    std::error_code error; // the text may not be a valid name at all
+    std::error_code error; // the text need not be a valid name
     const bool folder = std::filesystem::is_directory(out, error);
     if (std::find(types.begin(), types.end(), out.extension()) != types.end() &&
         !folder) {
@@ -533,9 +533,9 @@ int run_main(int argc, const char* const* argv,
                      without_end(what, 1500).c_str());
         return 2;
     };
-    // What was said to a full disk or a closed pipe must not be lost in silence.
-    // Whoever has closed a pipe knows that they have; an error before the last write
-    // has no reason any more.
+    // Text that could not be written, to a full disk or a closed pipe, is reported as
+    // an error. A closed pipe gets no message. The reason is known only if the last
+    // write failed.
     const auto lost_text = [&complain] {
         const int error = std::fflush(stdout) != 0 ? errno : 0;
         if (error == 0 && std::ferror(stdout) == 0 && std::ferror(stderr) == 0)
@@ -564,7 +564,7 @@ int run_main(int argc, const char* const* argv,
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory");
     } catch (const std::exception& error) {
-        // Do not report errors that only follow from Ctrl-C.
+        // After Ctrl-C an error is probably a consequence of it.
         if (stop_signal() != 0) return stopped();
         return complain(error.what());
     } catch (...) {

@@ -3,8 +3,8 @@
 /// \file examples/common/command_line.hpp
 /// \brief The command line that all example programs share.
 ///
-/// CLI11 does the work in command_line.cpp, which is compiled once: its header takes
-/// longer to compile than a whole chapter.
+/// The work is done by CLI11, in command_line.cpp. Only that file includes CLI11, whose
+/// header takes longer to compile than a whole chapter.
 
 #include <charconv>
 #include <cstdint>
@@ -22,19 +22,20 @@ namespace examples {
 
 /// The trade between time and quality of a picture.
 enum class Quality {
-    draft,    ///< A second or so: does it work?
-    report,   ///< As in the report.
+    draft,    ///< A first look, in about a second.
+    report,   ///< The quality of the report's pictures.
     reference ///< As accurate as is practical.
 };
 
 /// The size of a picture and the rays per pixel.
 struct Frame {
-    int width = 400;  ///< In pixels; 0: taken from a file, by fill().
-    int height = 400; ///< In pixels; 0: taken from a file, by fill().
+    int width = 400;  ///< In pixels; 0 until fill() sets it.
+    int height = 400; ///< In pixels; 0 until fill() sets it.
     int samples = 64; ///< Rays per pixel.
 };
 
-/// The frame of each quality in a program; options given by name override it.
+/// The frame of each quality in a program. The options --width, --height and --rays
+/// override it.
 struct Presets {
     Frame draft{.width = 100, .height = 100, .samples = 4};   ///< --quality draft
     Frame report{.width = 400, .height = 400, .samples = 64}; ///< --quality report
@@ -44,8 +45,8 @@ struct Presets {
 
 /// The options that all programs share.
 struct Options {
-    std::string out = ".";             ///< --out: the folder of all files; it exists.
-    std::string file;                  ///< The file's name, if --out named a file.
+    std::string out = "."; ///< --out: the folder for all files, which exists.
+    std::string file;      ///< The name of the file, if --out named one.
     Quality quality = Quality::report; ///< --quality
     std::uint64_t seed = 1;            ///< --seed
     int threads = 0;                   ///< --threads; 0: one per processor.
@@ -61,7 +62,7 @@ struct Options {
     }
 
     /// The path of a file in the folder.
-    /// \param name  Name of the file, as "ch04_sphere.png".
+    /// \param name  Name of the file, such as "fig-9.svg".
     /// \throws Interrupted  after Ctrl-C, so that no unfinished picture is saved.
     [[nodiscard]] std::string path(const std::string& name) const;
 
@@ -73,12 +74,12 @@ struct Options {
     }
 };
 
-/// Words, and the value of each.
+/// A list of words, each with its value.
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
-// The compiler's name for this function, which holds that of the enumerator, or a
-// number if there is none.
+// The name that the compiler gives this function. It contains the name of the
+// enumerator, or a number if there is no such enumerator.
 template <auto value>
 [[nodiscard]] const char* spelled() {
 #ifdef _MSC_VER
@@ -88,14 +89,14 @@ template <auto value>
 #endif
 }
 
-// "multi-jittered" from "... value = ljus::Sampling::multi_jittered]"; empty for a
-// number.
+// The word "multi-jittered" from "... value = ljus::Sampling::multi_jittered]"; empty
+// if the text ends with a number.
 [[nodiscard]] std::string word_in(const std::string& spelled);
 
-/// The words of an enum: its enumerators, with - for _, taken from the compiler so that
-/// no list must be kept in step by hand.
+/// The words of an enum: its enumerators, with - for _. The names come from the
+/// compiler, so that no list has to be written.
 /// \tparam Enum   An enum class with enumerators from 0 on, at most 16.
-/// \tparam Value  Enum, or a std::optional of it.
+/// \tparam Value  Enum, or std::optional<Enum>.
 template <typename Enum, typename Value = Enum>
 [[nodiscard]] Words<Value> words_of() {
     Words<Value> words;
@@ -121,33 +122,35 @@ concept AnEnum = std::is_enum_v<T>;
 template <typename T>
 concept NoText = !std::is_same_v<T, std::string>;
 
-/// The command line of one program: add its own options, then call parse().
+/// The command line of one program. The program adds its own options and then calls
+/// parse().
 ///
-/// An option is a setting that the program states in one call: its name, the member
-/// that holds its value, one line of help, and the values that it takes. --help shows
-/// all of that, and values() returns the final value of each setting.
+/// The program adds each option in one call, with its name, the variable that holds its
+/// value, one line of help, and the allowed values. --help shows these, and values()
+/// returns the final values.
 class CommandLine {
 public:
-    /// \param arguments  The program's name and what follows it.
+    /// \param arguments  The name of the program and all arguments.
     explicit CommandLine(std::vector<std::string> arguments);
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
     ~CommandLine();
 
-    /// One sentence at the top of --help.
+    /// Sets the sentence at the top of --help.
     void about(const std::string& text);
 
-    /// Begins a group of --help, which holds the options that are added from here on.
-    /// \param heading  As "Photons".
-    /// \param shared   Shared options to list in this group as well, as "--seed".
+    /// Begins a group of --help. It holds the options that are added after this call.
+    /// \param heading  The heading of the group, such as "Photons".
+    /// \param shared   Shared options that are listed in this group as well, such as
+    ///                 "--seed".
     void group(const std::string& heading, const std::vector<std::string>& shared = {});
 
-    /// An option with a number, or a whole number below 2^53; `value` holds the
-    /// default, and must live as long as the command line. A default outside the range
-    /// means "none".
-    /// \param name     As "--radius".
-    /// \param value    The default, and then what the user gave.
-    /// \param help     One line.
+    /// Adds an option whose value is a number; for an integer type, a whole number
+    /// below 2^53. The variable `value` must live as long as the command line. A
+    /// default outside the range means that there is no default.
+    /// \param name     The name of the option, such as "--radius".
+    /// \param value    Holds the default, and after parse() the value of the user.
+    /// \param help     The line of --help.
     /// \param least    The least value that is allowed.
     /// \param most     The largest value that is allowed.
     /// \param or_zero  Whether 0 is allowed as well.
@@ -162,8 +165,8 @@ public:
         add_number(name, help, std::is_integral_v<Number>, least, most, or_zero, read,
                    [&value](double given) { value = static_cast<Number>(given); });
     }
-    /// One of several values, each chosen by a word; a value without a word may be the
-    /// default, but cannot be chosen.
+    /// Adds an option that chooses one of several values by a word. A value without a
+    /// word can be the default, but cannot be chosen.
     template <NoText Value>
     void add(const std::string& name, Value& value, const std::string& help,
              const Words<Value>& words) {
@@ -177,90 +180,90 @@ public:
         add_words(name, help, names, read,
                   [&value, words](std::size_t i) { value = words[i].second; });
     }
-    /// One of the enumerators of an enum.
+    /// Adds an option that chooses an enumerator of an enum.
     template <AnEnum Enum>
     void add(const std::string& name, Enum& value, const std::string& help) {
         add(name, value, help, words_of<Enum>());
     }
-    /// The same, or none of them if the option is not given.
+    /// Adds an option that chooses an enumerator of an enum. Without the option there
+    /// is no value.
     template <typename Enum>
     void add(const std::string& name, std::optional<Enum>& value,
              const std::string& help) {
         add(name, value, help, words_of<Enum, std::optional<Enum>>());
     }
-    /// A word from a list, or any text if the list is empty; the name may then say what
-    /// kind of text, as "--checkpoint FILE".
+    /// Adds an option whose value is a word from a list, or any text if the list is
+    /// empty. The name may then say what the text is, as in "--checkpoint FILE".
     void add(const std::string& name, std::string& value, const std::string& help,
              const std::vector<std::string>& words = {});
-    /// One or more words: all that follow up to the next option.
+    /// Adds an option that takes all words up to the next option as its values.
     void add(const std::string& name, std::vector<std::string>& values,
              const std::string& help);
-    /// A switch: false unless it is given.
+    /// Adds a switch, which is true if it is given.
     void add(const std::string& name, bool& value, const std::string& help);
 
-    /// A switch that prints a text and ends the program, whatever else is given.
+    /// Adds a switch that prints a text and ends the program, whatever else is given.
     void prints(const std::string& name, const std::string& help,
                 std::function<std::string()> text);
 
-    /// The report's items that the program makes, as "fig-5"; --only chooses one of
-    /// them.
+    /// Adds the option --only, which chooses one of the items that the program makes,
+    /// such as "fig-5".
     void makes(const std::vector<std::string>& items);
 
-    /// A positional argument, which must be given.
-    /// \param name   Its name in --help.
-    /// \param value  Receives what the user gave.
-    /// \param help   One line.
+    /// Adds a positional argument, which must be given.
+    /// \param name   The name of the argument in --help.
+    /// \param value  Receives the argument.
+    /// \param help   The line of --help.
     void add_positional(const std::string& name, std::string& value,
                         const std::string& help);
-    /// Lets --out name a file of one of these types, or a folder for one; parse()
-    /// neither creates nor checks it: see require_writable().
-    /// \param types  As ".png".
+    /// Lets --out name a file of one of these types, or a folder for such a file.
+    /// parse() then neither creates nor checks the folder; require_writable() does.
+    /// \param types  Extensions, such as ".png".
     void file_types(const std::vector<std::string>& types);
 
     /// Removes options that have no meaning for this program.
-    /// \param names  Names of shared options, as "--seed".
+    /// \param names  Names of shared options, such as "--seed".
     void without(const std::vector<std::string>& names);
 
-    /// Whether the user gave this option, so that its value is not the default.
+    /// Whether the user gave this option.
     [[nodiscard]] bool given(const std::string& name) const;
 
-    /// The names of all options that were given, as "--seed".
+    /// The names of all options that were given, such as "--seed".
     [[nodiscard]] std::vector<std::string> all_given() const;
 
     /// The heading of the group to which an option belongs; empty if there is none.
     [[nodiscard]] std::string group_of(const std::string& name) const;
 
-    /// The current value of each setting of a group, by its name, as "seed", in JSON.
-    /// Free texts, such as names of files, are left out, and so are words that were not
-    /// chosen.
+    /// The current value of each setting of a group, as its name, such as "seed", and
+    /// its value in JSON. Free texts, such as names of files, are left out, and so are
+    /// settings without a value.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>>
     values(const std::string& heading) const;
 
-    /// Reads the command line, creates the folder for the files, and tests that it can
-    /// be written, before any work could be lost.
+    /// Reads the command line, creates the folder for the files, and tests whether
+    /// files can be written there, before the program begins its work.
     /// \param presets  The frame of each quality.
     /// \throws Exit  for --help and --version, which have printed their text.
     /// \throws std::invalid_argument  for a wrong command line.
     /// \throws std::runtime_error     for a folder that cannot be used.
     [[nodiscard]] Options parse(const Presets& presets = {});
 
-    /// Sets the size and the rays, where the user gave none, to those of a file or to
-    /// values chosen after parse().
+    /// Sets size and rays that the user did not give.
     /// \param frame  Size and rays.
     /// \return All options.
     Options fill(const Frame& frame);
 
-    /// Sets the user's values again, after a preset has overwritten them.
+    /// Sets the values of the user again, after a preset has overwritten them.
     void give_again();
 
 private:
     struct Parser;
-    // The templates call these: `read` returns the value, and `take` sets it.
+    // These do the work of the templates. `read` returns the value, and `take` sets it.
     void add_number(const std::string& name, const std::string& help, bool whole,
                     double least, double most, bool or_zero,
                     std::function<std::string()> read,
                     std::function<void(double)> take);
-    // Words are numbered; a number past the last stands for none.
+    // Words are given by index; an index past the last word means no word.
     void add_words(const std::string& name, const std::string& help,
                    const std::vector<std::string>& words,
                    std::function<std::size_t()> read,
@@ -268,20 +271,20 @@ private:
     std::unique_ptr<Parser> parser_;
 };
 
-/// Checks that a file can be written, before any work could be lost; creates its folder
-/// if it is missing.
+/// Checks that a file can be written, before the program begins its work. Creates its
+/// folder if that is missing.
 /// \param path  The file; an existing one is not changed.
 /// \throws std::runtime_error  with the path and the reason.
 void require_writable(const std::string& path);
 
 /// The two numbers of "120,80" or "3/16".
-/// \param text     What the user gave.
-/// \param between  The character between them.
+/// \param text     The text of the user.
+/// \param between  The character between the numbers.
 /// \return Two whole numbers; nothing if the text has another form.
 [[nodiscard]] std::optional<std::pair<int, int>> two_numbers(const std::string& text,
                                                              char between);
 
-/// Ends a program with this code; run_main() returns it.
+/// Thrown to end a program with this code, which run_main() returns.
 struct Exit {
     int code = 0; ///< 0 for success, 2 for wrong usage.
 };
@@ -295,8 +298,8 @@ struct Exit {
 ///         });
 ///     }
 ///
-/// \return 0; after an exception 2, with one sentence on stderr; after Ctrl-C 130 (128
-///         plus the signal).
+/// \return 0 after success; 2 after an exception, with one sentence on stderr; 130 (128
+///         plus the signal) after Ctrl-C.
 int run_main(int argc, const char* const* argv,
              const std::function<void(CommandLine&)>& body);
 

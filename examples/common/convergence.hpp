@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/convergence.hpp
-/// \brief Error against time: slopes, the time to a given error, and bias or variance.
+/// \brief How errors fall with time: slopes, bias and variance.
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +16,14 @@ namespace examples {
 /// A power law y = c x^slope, fitted to points.
 struct PowerLaw {
     double slope = 0; ///< The exponent.
-    double error = 0; ///< Its standard error, from the residuals of the fit.
+    double error = 0; ///< Standard error of the slope, from the residuals of the fit.
 };
 
 /// Fits a straight line to the logarithms of x and y, by least squares.
-/// \param x  Above 0, not all equal.
-/// \param y  As many values; points with y <= 0 are left out.
-/// \return The slope, NaN for fewer than 2 points; its error is NaN for fewer than 3.
+/// \param x  Values above 0, not all equal.
+/// \param y  As many values. Points with y <= 0 are left out.
+/// \return The slope and its error; the slope is NaN for fewer than 2 points, and the
+///         error for fewer than 3.
 [[nodiscard]] inline PowerLaw fit_power(const std::vector<double>& x,
                                         const std::vector<double>& y) {
     std::vector<double> u, v;
@@ -44,12 +45,12 @@ struct PowerLaw {
     }
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const double slope = n >= 2 ? uv / uu : nan;
-    const double off = std::max(vv - slope * uv, 0.0); // squared, along v
+    const double off = std::max(vv - slope * uv, 0.0); // sum of the squared residuals
     return {slope, n >= 3 ? std::sqrt(off / (n - 2) / uu) : nan};
 }
 
-/// A picture divided by sqrt(r^2 + epsilon), so that squared differences are relative,
-/// as in rel_mse().
+/// A picture divided by sqrt(r^2 + epsilon), pixel by pixel. Squared differences of
+/// such pictures are relative ones, as in rel_mse().
 /// \param image      The picture.
 /// \param reference  The truth r, of the same size.
 /// \return The quotient, in double.
@@ -65,12 +66,15 @@ template <typename T, typename U>
     return result;
 }
 
-/// Splits the relMSE of a run into squared bias and variance, by several seeds.
+/// Splits the relMSE of a renderer into squared bias and variance, from pictures with
+/// several seeds.
 ///
-/// Their sum is the mean of rel_mse() over the runs, minus the noise of the reference.
-/// \param runs       At least 2, of independent seeds.
-/// \param reference  The truth.
-/// \param its_noise  The reference's own variance, as its contribution to relMSE.
+/// The sum of both is the mean of rel_mse() over the pictures, minus the noise of the
+/// reference.
+/// \param runs       At least 2 pictures, with independent seeds.
+/// \param reference  The reference.
+/// \param its_noise  The variance of the reference itself, as its contribution to
+///                   relMSE.
 /// \param block      Side of the blocks whose means are compared; 1: pixels.
 [[nodiscard]] inline ljus::BiasVariance
 relative_split(const std::vector<ljus::Image>& runs,
@@ -87,12 +91,13 @@ relative_split(const std::vector<ljus::Image>& runs,
 
 /// The standard error of a squared bias, as ljus::bias_variance() estimates it.
 ///
-/// That estimate is the mean of the products of all pairs of runs. Its error is found
-/// by a jackknife: each run is left out in turn, and the scatter of the results is
-/// measured. Without bias the error comes out too large: by a factor of 2 for three
-/// runs, of 1.4 for many.
-/// \param apart  The difference of each run from the reference, of independent seeds.
-/// \return Infinity for fewer than 3 runs.
+/// The squared bias is estimated by the mean of the products of all pairs of runs. Its
+/// standard error is found by a jackknife: each run is left out in turn, and the
+/// scatter of the results is measured. If there is no bias, this error is too large: by
+/// a factor of 2 for three runs, and of 1.4 for many runs.
+/// \param apart  The difference of each run from the reference; runs with independent
+///               seeds.
+/// \return The standard error; infinity for fewer than 3 runs.
 [[nodiscard]] inline double bias_error(const std::vector<ljus::ImageT<double>>& apart) {
     const auto n = double(apart.size());
     if (apart.size() < 3) return std::numeric_limits<double>::infinity();
@@ -106,14 +111,14 @@ relative_split(const std::vector<ljus::Image>& runs,
     double mean = 0, squares = 0;
     for (const double one : with) mean += one / n;
     for (const double one : with) squares += (one - mean) * (one - mean);
-    const double without = 2 / ((n - 1) * (n - 2)); // what one run changes the mean by
+    const double without = 2 / ((n - 1) * (n - 2)); // change of the mean by one run
     return std::sqrt((n - 1) / n * squares) * without /
            (3 * double(apart[0].pixels.size()));
 }
 
 /// The standard error of the squared bias that relative_split() finds.
-/// \param runs       Of independent seeds.
-/// \param reference  The truth; its own noise is not counted.
+/// \param runs       Pictures with independent seeds.
+/// \param reference  The reference; its own noise is ignored.
 [[nodiscard]] inline double relative_bias_error(const std::vector<ljus::Image>& runs,
                                                 const ljus::ImageT<double>& reference) {
     const auto truth = weighed(reference, reference);

@@ -1,10 +1,11 @@
 #pragma once
 
 /// \file examples/common/drawing.hpp
-/// \brief Diagrams of the book, drawn from what the library computes.
+/// \brief Draws diagrams for the book from results of the library.
 ///
-/// The SVG takes the colour of the surrounding page (currentColor), so that a page that
-/// includes it by \\htmlinclude is readable in dark mode as well.
+/// Lines in the SVG have the text colour of the page that contains it (currentColor). A
+/// diagram that a page includes by \\htmlinclude is therefore readable in dark mode as
+/// well.
 
 #include <cctype>
 #include <cmath>
@@ -19,13 +20,13 @@ namespace examples {
 
 /// A point of a drawing; y points up.
 struct Point {
-    double x = 0; ///< To the right.
-    double y = 0; ///< Up.
+    double x = 0; ///< Increases to the right.
+    double y = 0; ///< Increases upwards.
 };
 
 /// Projects a point of space onto the x-y plane.
 /// \param v  A vector of the library.
-/// \return Its x and y.
+/// \return The point with its x and y.
 template <typename V>
 [[nodiscard]] Point flat(const V& v) {
     return {double(v.x), double(v.y)};
@@ -33,37 +34,37 @@ template <typename V>
 
 /// How a line is drawn.
 struct Pen {
-    std::string color = "currentColor"; ///< As CSS has it.
-    double width = 1.5;                 ///< In pixels.
-    bool dashed = false;                ///< Whether it has gaps.
+    std::string color = "currentColor"; ///< A colour of CSS.
+    double width = 1.5;                 ///< Width in pixels.
+    bool dashed = false;                ///< Whether the line is dashed.
 };
 
 /// The colours that a diagram shares with the plots.
 namespace colors {
-inline constexpr const char* blue = "#3b8ed0";   ///< Of the first curve.
-inline constexpr const char* orange = "#e0752d"; ///< Of the second.
-inline constexpr const char* green = "#2fa36b";  ///< Of the third.
-inline constexpr const char* violet = "#a06cd5"; ///< Of the fourth.
-inline constexpr const char* red = "#d64550";    ///< Of the fifth.
+inline constexpr const char* blue = "#3b8ed0";   ///< The first curve.
+inline constexpr const char* orange = "#e0752d"; ///< The second curve.
+inline constexpr const char* green = "#2fa36b";  ///< The third curve.
+inline constexpr const char* violet = "#a06cd5"; ///< The fourth curve.
+inline constexpr const char* red = "#d64550";    ///< The fifth curve.
 } // namespace colors
 
-/// A diagram: a window of the plane, and the shapes in it, in the order of drawing.
+/// A diagram: a window of the plane, and the shapes that have been drawn in it.
 struct Drawing {
-    std::string name;        ///< Of the file, e.g. "fig-9".
-    std::string description; ///< What it shows, for those who cannot see it.
-    Point low;               ///< The window's lower left corner.
-    Point high;              ///< Its upper right corner.
+    std::string name;        ///< Name of the file, such as "fig-9".
+    std::string description; ///< A description for readers who cannot see the diagram.
+    Point low;               ///< Lower left corner of the window.
+    Point high;              ///< Upper right corner of the window.
     double scale = 100;      ///< Pixels per unit.
     std::string body = {};   ///< SVG elements so far.
 };
 
-/// A point in the drawing's pixels, as "x,y".
+/// A point in pixels of the drawing, as the text "x,y".
 [[nodiscard]] inline std::string pixels(const Drawing& drawing, const Point& p) {
     return text((p.x - drawing.low.x) * drawing.scale, "%.1f") + "," +
            text((drawing.high.y - p.y) * drawing.scale, "%.1f");
 }
 
-/// The attributes of a line.
+/// The SVG attributes of a line.
 [[nodiscard]] inline std::string stroke(const Pen& pen) {
     return "fill=\"none\" stroke=\"" + pen.color + "\" stroke-width=\"" +
            text(pen.width) + "\"" +
@@ -71,9 +72,9 @@ struct Drawing {
 }
 
 /// Draws straight lines from point to point.
-/// \param drawing  Where to.
+/// \param drawing  Receives the line.
 /// \param points   At least two.
-/// \param pen      How.
+/// \param pen      The look of the line.
 inline void draw_line(Drawing& drawing, const std::vector<Point>& points,
                       const Pen& pen = {}) {
     std::string path = "<polyline points=\"";
@@ -81,10 +82,10 @@ inline void draw_line(Drawing& drawing, const std::vector<Point>& points,
     drawing.body += path + "\" " + stroke(pen) + "/>\n";
 }
 
-/// Fills a polygon with a colour, half transparent.
-/// \param drawing  Where to.
-/// \param points   Its corners.
-/// \param color    As CSS has it.
+/// Fills a polygon with a colour, at an opacity of 15 %.
+/// \param drawing  Receives the polygon.
+/// \param points   The corners of the polygon.
+/// \param color    A colour of CSS.
 inline void draw_area(Drawing& drawing, const std::vector<Point>& points,
                       const std::string& color) {
     std::string path = "<polygon points=\"";
@@ -92,11 +93,11 @@ inline void draw_area(Drawing& drawing, const std::vector<Point>& points,
     drawing.body += path + "\" fill=\"" + color + "\" fill-opacity=\"0.15\"/>\n";
 }
 
-/// Draws an arrow whose head has its tip in `to`.
-/// \param drawing  Where to.
-/// \param from     Its tail.
-/// \param to       Its tip; another point than `from`.
-/// \param pen      How.
+/// Draws an arrow.
+/// \param drawing  Receives the arrow.
+/// \param from     The tail of the arrow.
+/// \param to       The tip of the arrow; must differ from `from`.
+/// \param pen      The look of the line.
 inline void draw_arrow(Drawing& drawing, const Point& from, const Point& to,
                        const Pen& pen = {}) {
     const double length = std::hypot(to.x - from.x, to.y - from.y);
@@ -111,13 +112,14 @@ inline void draw_arrow(Drawing& drawing, const Point& from, const Point& to,
                     pen.color + "\"/>\n";
 }
 
-/// Draws an arc.
-/// \param drawing  Where to.
-/// \param center   The circle's centre.
-/// \param radius   Its radius.
-/// \param first    Where it begins: radians, counter-clockwise from the right.
-/// \param last     Where it ends, above `first`.
-/// \param pen      How.
+/// Draws an arc of a circle.
+/// \param drawing  Receives the arc.
+/// \param center   The centre of the circle.
+/// \param radius   The radius of the circle.
+/// \param first    The angle of the first point, in radians, counter-clockwise from the
+///                 right.
+/// \param last     The angle of the last point, above `first`.
+/// \param pen      The look of the line.
 inline void draw_arc(Drawing& drawing, const Point& center, double radius, double first,
                      double last, const Pen& pen = {}) {
     constexpr int steps = 48;
@@ -131,9 +133,9 @@ inline void draw_arc(Drawing& drawing, const Point& center, double radius, doubl
 }
 
 /// A polygon that approximates a circle, for draw_line() and draw_area().
-/// \param center  The circle's centre.
-/// \param radius  Its radius.
-/// \return Points, the first one again at the end.
+/// \param center  The centre of the circle.
+/// \param radius  The radius of the circle.
+/// \return The corners; the last one is the first one again.
 [[nodiscard]] inline std::vector<Point> circle(const Point& center, double radius) {
     constexpr int steps = 72;
     std::vector<Point> points;
@@ -146,10 +148,10 @@ inline void draw_arc(Drawing& drawing, const Point& center, double radius, doubl
 }
 
 /// Draws a dot.
-/// \param drawing  Where to.
-/// \param at       Its middle.
-/// \param radius   In pixels.
-/// \param color    As CSS has it.
+/// \param drawing  Receives the dot.
+/// \param at       The middle of the dot.
+/// \param radius   The radius of the dot, in pixels.
+/// \param color    A colour of CSS.
 inline void draw_dot(Drawing& drawing, const Point& at, double radius,
                      const std::string& color) {
     const std::string place = pixels(drawing, at);
@@ -159,12 +161,12 @@ inline void draw_dot(Drawing& drawing, const Point& at, double radius,
                     color + "\"/>\n";
 }
 
-/// Writes a name; letters and digits after an underscore are subscripts, as in "n_1 =
-/// 1".
-/// \param drawing  Where to.
+/// Writes a name. Letters and digits after an underscore become subscripts, as in "n_1
+/// = 1".
+/// \param drawing  Receives the text.
 /// \param at       The middle of the text.
 /// \param name     The text.
-/// \param color    As CSS has it.
+/// \param color    A colour of CSS.
 inline void draw_label(Drawing& drawing, const Point& at, const std::string& name,
                        const std::string& color = "currentColor") {
     const std::string place = pixels(drawing, at);
@@ -187,7 +189,7 @@ inline void draw_label(Drawing& drawing, const Point& at, const std::string& nam
 }
 
 /// Saves a drawing as NAME.svg.
-/// \param folder   Where to; it exists.
+/// \param folder   The folder for the file, which exists.
 /// \param drawing  The drawing.
 inline void save_drawing(const std::string& folder, const Drawing& drawing) {
     const std::string size =

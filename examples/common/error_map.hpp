@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/error_map.hpp
-/// \brief Maps of numbers as colours, with a legend.
+/// \brief Draws a map of numbers as colours, with a legend.
 
 #include <algorithm>
 #include <array>
@@ -18,19 +18,21 @@
 
 namespace examples {
 
-/// Colours for numbers from 0 to 1.
+/// Two scales of colours for numbers from 0 to 1.
 enum class Ramp {
-    heat, ///< Black, violet, orange, pale yellow: for errors, which are 0 at best.
-    signs ///< Blue, white, orange: for signed errors; 0.5 stands for no error.
+    heat, ///< From black through violet and orange to pale yellow, for errors without a
+          ///< sign.
+    signs ///< From blue through white to orange, for signed errors; 0.5 means no error.
 };
 
 /// The colour of a number.
-/// \param ramp  Which colours.
-/// \param t     Clamped to [0, 1].
+/// \param ramp  The scale.
+/// \param t     The number, which is clamped to [0, 1].
 /// \return Linear sRGB, for save_png().
 [[nodiscard]] inline ljus::Rgb ramp_color(Ramp ramp, double t) {
     using Bytes = std::array<double, 3>;
-    // Roughly perceptually uniform steps, each lighter than the one before.
+    // The steps are about perceptually uniform, and each is lighter than the one
+    // before.
     static constexpr std::array<Bytes, 6> heat{{{0, 0, 0},
                                                 {62, 22, 92},
                                                 {140, 38, 107},
@@ -56,16 +58,16 @@ enum class Ramp {
     return color;
 }
 
-/// Writes digits into a picture: 3 x 5 dots per character, one dot apart.
+/// Writes digits into a picture. A character has 3 x 5 dots, with a gap of one dot.
 /// \param image  The picture; characters that do not fit are cut off.
 /// \param x      Column of the left edge.
 /// \param y      Row of the upper edge.
 /// \param text   Digits, '.', '-', '+' and '%'; others leave a gap.
-/// \param dot    Pixels across a dot.
+/// \param dot    Width of a dot in pixels.
 /// \param color  Linear sRGB.
 inline void write_digits(ljus::Image& image, int x, int y, std::string_view text,
                          int dot, const ljus::Rgb& color) {
-    // Five rows of three dots, the first one in the highest bits.
+    // Each shape has five rows of three dots. The highest bits are the first row.
     static constexpr std::string_view known = "0123456789.-+%";
     static constexpr std::array<std::uint16_t, 14> shapes{
         0b111'101'101'101'111, 0b010'110'010'010'111, 0b111'001'111'100'111,
@@ -87,12 +89,12 @@ inline void write_digits(ljus::Image& image, int x, int y, std::string_view text
     }
 }
 
-/// A map of numbers as a picture, with a colour bar and its range below.
-/// \param map   The first channel is drawn; NaN is drawn in green.
+/// A map of numbers as a picture, with a colour bar and its range below the map.
+/// \param map   The numbers, in the first channel; NaN is drawn in green.
 /// \param ramp  The colours.
-/// \param low   The number of the ramp's first colour.
-/// \param high  That of its last colour, above `low`.
-/// \return As wide as the map, but at least 120 pixels, with the legend below.
+/// \param low   The number that gets the first colour.
+/// \param high  The number that gets the last colour, above `low`.
+/// \return A picture as wide as the map, but at least 120 pixels wide.
 [[nodiscard]] inline ljus::Image error_picture(const ljus::ImageT<double>& map,
                                                Ramp ramp, double low, double high) {
     const int width = std::max(map.width, 120);

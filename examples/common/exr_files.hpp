@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file exr_files.hpp
-/// \brief EXR files of the programs, if they were built with OpenEXR; otherwise the
-/// sentence that says so.
+/// \brief Reads and writes EXR files in programs that were built with OpenEXR. In other
+/// programs the same functions throw an error that says so.
 
 #include <stdexcept>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace examples {
 
-/// The ends of the names of pictures that a program writes.
+/// The extensions of the pictures that a program can write.
 [[nodiscard]] inline std::vector<std::string> picture_types() {
 #ifdef LJUS_HAS_OPENEXR
     return {".png", ".hdr", ".pfm", ".exr"};
@@ -33,7 +33,7 @@ using ljus::load_exr_layers;
 using ljus::save_exr;
 using ljus::save_exr_layers;
 
-/// What reads meshes, and now EXR pictures as well.
+/// Adds EXR pictures to the files that a reader of mesh files can read.
 template <typename Files>
 [[nodiscard]] auto with_exr(Files files) {
     return ljus::WithExr{std::move(files)};
@@ -41,6 +41,7 @@ template <typename Files>
 
 #else
 
+/// Throws an error that says that the program was built without OpenEXR.
 /// \throws std::runtime_error  always.
 [[noreturn]] inline void no_exr(const std::string& path) {
     throw std::runtime_error("'" + path +

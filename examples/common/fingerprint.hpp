@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/fingerprint.hpp
-/// \brief Sixteen hexadecimal digits for the bytes of a picture.
+/// \brief A fingerprint of a picture: a hash of its bytes, as hexadecimal digits.
 
 #include <cstdint>
 #include <cstdio>
@@ -14,11 +14,11 @@ namespace examples {
 
 /// The FNV-1a hash of the bytes of some values.
 ///
-/// Two different lists have the same hash with probability 5e-20, unless they were made
-/// to collide.
-/// \param values  Of a type without padding between its members.
+/// The probability that two different lists have the same hash is 5e-20, unless they
+/// were made to collide.
+/// \param values  Values of a type without padding between its members.
 /// \param hash    The hash so far, to continue from.
-/// \return 64 bits.
+/// \return The hash, 64 bits.
 template <typename V>
 [[nodiscard]] std::uint64_t hash_of(const std::vector<V>& values,
                                     std::uint64_t hash = 0xcbf29ce484222325u) {
@@ -32,8 +32,8 @@ template <typename V>
 }
 
 /// A hash as text.
-/// \param hash  64 bits.
-/// \return 16 digits.
+/// \param hash  The hash, 64 bits.
+/// \return 16 hexadecimal digits.
 [[nodiscard]] inline std::string hex_text(std::uint64_t hash) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));

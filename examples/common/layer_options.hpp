@@ -17,7 +17,7 @@
 
 namespace examples {
 
-/// What a layer is called in the name of a file: "albedo", or "Z".
+/// The name of a layer within the name of a file, such as "albedo" or "Z".
 template <std::floating_point T>
 [[nodiscard]] std::string short_name(const ljus::LayerT<T>& layer) {
     return layer.name.empty() ? layer.channels.front() : layer.name;
@@ -25,9 +25,9 @@ template <std::floating_point T>
 
 /// The layers of --layers.
 /// \param text  Words separated by commas: normal, albedo, depth, position, object,
-///              light-paths; or NAME=CLASS, the light of a class of paths.
-/// \throws std::invalid_argument  for another word, a class that is none, or a name
-///         that occurs twice.
+///              light-paths, or NAME=CLASS for the light of a class of paths.
+/// \throws std::invalid_argument  for an unknown word, an invalid class, or a name that
+///         occurs twice.
 [[nodiscard]] inline ljus::LayerSettings layer_settings(const std::string& text) {
     ljus::LayerSettings which;
     const std::vector<std::pair<std::string, bool ljus::LayerSettings::*>> surfaces{
@@ -37,7 +37,7 @@ template <std::floating_point T>
         {"position", &ljus::LayerSettings::position},
         {"object", &ljus::LayerSettings::object}};
     const auto add_paths = [&](const ljus::PathLayer& layer) {
-        (void)ljus::light_path_expression(layer.paths); // or throws
+        (void)ljus::light_path_expression(layer.paths); // throws if invalid
         which.paths.push_back(layer);
     };
     for (std::size_t at = 0; at <= text.size();) {
@@ -79,8 +79,8 @@ template <std::floating_point T>
     return which;
 }
 
-/// The file of a layer beside a picture that is not an EXR file: "room.albedo.pfm"
-/// beside "room.png".
+/// The file of a layer if the picture is not an EXR file, such as "room.albedo.pfm" for
+/// "room.png".
 template <std::floating_point T>
 [[nodiscard]] std::string layer_file(const std::string& picture,
                                      const ljus::LayerT<T>& layer) {
@@ -89,11 +89,12 @@ template <std::floating_point T>
         .string();
 }
 
-/// Saves a picture and its layers: as one EXR file, or else each layer as a PFM file.
+/// Saves a picture and its layers: as one EXR file, or as a picture and a PFM file for
+/// each layer.
 /// \param image     The picture.
 /// \param layers    Its layers.
 /// \param path      The file of the picture.
-/// \param exposure  Of a PNG file, in stops.
+/// \param exposure  Exposure of a PNG file, in stops.
 template <std::floating_point T>
 void save_with_layers(const ljus::ImageT<T>& image, std::vector<ljus::LayerT<T>> layers,
                       const std::string& path, double exposure) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file options_together.hpp
-/// \brief Which options of `render` can be combined: one table.
+/// \brief A table of the options of `render` that cannot be combined.
 
 #include <algorithm>
 #include <cstdio>
@@ -16,22 +16,22 @@
 
 namespace examples {
 
-/// Options that have no effect under some condition.
+/// Options that have no effect, or are refused, under a condition.
 struct NoEffect {
-    const char* why;                  ///< "without --more-rays".
-    bool there;                       ///< Whether the condition holds.
-    std::vector<std::string> options; ///< Their names, or headings of groups.
-    bool all_but = false;             ///< All options but these.
+    const char* why; ///< The condition in words: "without --more-rays".
+    bool there;      ///< Whether the condition holds.
+    std::vector<std::string> options; ///< Names of options, or headings of groups.
+    bool all_but = false;             ///< Whether all options but these are meant.
 };
 
-/// Whether the picture can show what --exposure changes: PNG files are the only ones.
+/// Whether a PNG file is written. --exposure has an effect in PNG files only.
 [[nodiscard]] inline bool exposed(const RenderRequest& r) {
     return r.part.count > 0 || !r.passes.preview.empty() ||
            std::filesystem::path(r.file).extension() == ".png";
 }
 
-/// Combinations that are refused: one option takes away what the other asks for.
-/// \param r  What the user asks for.
+/// Combinations that are refused, because one option makes the other impossible.
+/// \param r  The request of the user.
 [[nodiscard]] inline std::vector<NoEffect> options_apart(const RenderRequest& r) {
     const bool explains = !r.pixel.empty(), dots = !r.photons.empty();
     const bool fixed = r.promise.error > 0;
@@ -71,10 +71,10 @@ struct NoEffect {
     };
 }
 
-/// Combinations that are only reported: the picture is right, and the same without
-/// these options.
+/// Combinations that are only reported. The picture is right, but would be the same
+/// without these options.
 /// \param line The command line, parsed.
-/// \param r    What the user asks for, with all settings.
+/// \param r    The request of the user, with all settings.
 /// \param run  The passes that a photon mapper runs.
 [[nodiscard]] inline std::vector<NoEffect>
 options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes& run) {
@@ -172,7 +172,7 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
     };
 }
 
-/// The options of a row that were given.
+/// The options that the user gave and to which a row applies.
 [[nodiscard]] inline std::vector<std::string> idle_options(const CommandLine& line,
                                                            const NoEffect& row) {
     std::vector<std::string> found;
@@ -187,11 +187,12 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
     return found;
 }
 
-/// Refuses options that cannot be combined, and reads the number of a slice.
+/// Refuses options that cannot be combined. Sets the number of the slice in `r`.
 /// \param line  The command line, parsed.
-/// \param r     What the user asks for.
-/// \param file  The file's name, if --out names one.
-/// \throws std::invalid_argument  with the options and what would be right.
+/// \param r     The request of the user.
+/// \param file  The name of the file, if --out names one.
+/// \throws std::invalid_argument  if options cannot be combined, or --slice is not
+///         valid.
 inline void check_options(const CommandLine& line, RenderRequest& r,
                           const std::string& file) {
     for (const NoEffect& row : options_apart(r))
@@ -210,8 +211,8 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     }
 }
 
-/// The pixels of --region.
-/// \throws std::invalid_argument  if they do not lie in the picture.
+/// The pixels that --region selects.
+/// \throws std::invalid_argument  if the region is not within the picture.
 [[nodiscard]] inline ljus::PixelRegion region_of(const RenderRequest& r) {
     const std::size_t second = r.region.find(',', r.region.find(',') + 1);
     const auto first = two_numbers(r.region.substr(0, second), ',');
@@ -232,8 +233,8 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     return {first->first, first->second, size->first, size->second};
 }
 
-/// The pixel of --explain.
-/// \throws std::invalid_argument  if it does not lie in the picture.
+/// The pixel that --explain selects.
+/// \throws std::invalid_argument  if the pixel is not within the picture.
 [[nodiscard]] inline std::pair<int, int> pixel_of(const RenderRequest& r) {
     const auto pixel = two_numbers(r.pixel, ',');
     if (!pixel || pixel->first < 0 || pixel->first >= r.picture.width ||
@@ -246,9 +247,9 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     return *pixel;
 }
 
-/// Says on stderr which options have no effect with the others.
+/// Prints on stderr which options have no effect.
 /// \param line  The command line, parsed.
-/// \param r     What the user asks for, with all settings.
+/// \param r     The request of the user, with all settings.
 /// \param run   The passes that a photon mapper runs.
 inline void tell_idle_options(const CommandLine& line, const RenderRequest& r,
                               const ljus::Passes& run) {

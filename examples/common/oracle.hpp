@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file examples/common/oracle.hpp
-/// \brief The common header of examples that measure errors: a reference that is
-/// rendered once and kept in files, and the error of pictures against it.
+/// \brief The common header of examples that measure errors. A reference picture is
+/// rendered once and kept in files; the errors of other pictures are measured against
+/// it.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,26 +18,27 @@
 
 namespace examples {
 
-/// A reference picture, and how accurate it is.
+/// A reference picture with its accuracy.
 struct Oracle {
-    ljus::ImageT<double> truth{}; ///< The mean of all pieces.
-    double noise = 0;             ///< Its own variance, as its contribution to relMSE.
-    double block_noise = 0;       ///< The same of its blocks of 10 x 10 pixels.
-    int rays = 0;                 ///< Rays per pixel in all pieces.
+    ljus::ImageT<double> truth{}; ///< The reference: the mean of all pieces.
+    double noise = 0; ///< Variance of the reference, as its contribution to relMSE.
+    double block_noise = 0; ///< The same for means of 10 x 10 pixels.
+    int rays = 0;           ///< Rays per pixel in all pieces.
 };
 
-/// The reference picture of a room: path tracing without a limit on depth, in eight
-/// pieces whose variance gives its error.
+/// The reference picture of a room. It is rendered by path tracing without a limit on
+/// depth, in eight pieces, whose variance gives the error of the reference.
 ///
-/// The pieces are kept as oracle-NAME-....pfm beside the figures, where the next
-/// program finds them. Their names hold the fingerprint of a small picture of the room,
-/// so that they are rendered again if the room or the path tracer has changed.
+/// The pieces are kept as files oracle-NAME-....pfm in the folder of the figures, where
+/// other programs find them. The name of a file contains the fingerprint of a small
+/// picture of the room. If the room or the path tracer has changed, the pieces are
+/// therefore rendered again.
 /// \param name     The name of the room, for the files.
-/// \param room     With a `world` and a `camera`.
+/// \param room     A room with members `world` and `camera`.
 /// \param size     Width and height in pixels.
 /// \param rays     Rays per pixel, divided among the pieces.
-/// \param options  Folder and threads; the seed is the oracle's own.
-/// \return The truth.
+/// \param options  Folder and threads; the seed is not used.
+/// \return The reference.
 template <typename Room>
 [[nodiscard]] Oracle find_oracle(const std::string& name, const Room& room, int size,
                                  int rays, const Options& options) {
@@ -73,11 +75,12 @@ template <typename Room>
 /// Bias and variance of some pictures, as parts of their relMSE.
 struct OracleErrors {
     ljus::BiasVariance pixels{}; ///< Pixel by pixel.
-    ljus::BiasVariance blocks{}; ///< Of the means of 10 x 10 pixels.
+    ljus::BiasVariance blocks{}; ///< Errors of the means of 10 x 10 pixels.
 };
 
-/// The error of pictures of one renderer; that of the reference is subtracted.
-/// \param runs    At least 2, of independent seeds and the reference's size.
+/// The error of pictures of one renderer. The error of the reference is subtracted.
+/// \param runs    At least 2 pictures of the size of the reference, with independent
+///                seeds.
 /// \param oracle  The reference.
 [[nodiscard]] inline OracleErrors errors_against(const Oracle& oracle,
                                                  const std::vector<ljus::Image>& runs) {

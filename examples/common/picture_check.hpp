@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/picture_check.hpp
-/// \brief The error of a picture, measured against a few hundred path-traced pixels.
+/// \brief Measures the error of a picture by a few hundred path-traced pixels.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,8 @@
 
 namespace examples {
 
-/// A pixel of a check: the sums of two independent halves of its path-traced rays.
+/// A pixel of a check. Its path-traced rays form two independent halves, whose radiance
+/// is summed.
 struct CheckedPixel {
     int x = 0; ///< Column.
     int y = 0; ///< Row.
@@ -25,23 +26,23 @@ struct CheckedPixel {
                                              ljus::RgbT<double>{0}};
 };
 
-/// Path-traced pixels of a picture, in squares that are spread over all of it.
+/// Path-traced pixels of a picture, in squares that are spread over the whole picture.
 struct PictureCheck {
-    static constexpr int side = 8;                   ///< Of a square, in pixels.
-    static constexpr int rays_a_round = 8;           ///< In each half of a pixel.
+    static constexpr int side = 8;         ///< Side of a square, in pixels.
+    static constexpr int rays_a_round = 8; ///< Rays per round in each half of a pixel.
     std::vector<std::vector<CheckedPixel>> blocks{}; ///< The pixels of each square.
-    int rounds = 0;                                  ///< Of rays so far.
-    double seconds = 0;                              ///< That they took.
+    int rounds = 0;     ///< Number of rounds of rays so far.
+    double seconds = 0; ///< Time that all rounds took.
 
-    /// Rays so far in each half of a pixel.
+    /// Number of rays so far in each half of a pixel.
     [[nodiscard]] double rays() const noexcept { return rounds * rays_a_round; }
 };
 
 /// Chooses about 400 pixels: at most 100 squares, one at random from each stratum of
 /// the picture, and at least four random pixels in each.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \param seed    Of the choice.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
+/// \param seed    Seed of the choice.
 [[nodiscard]] inline PictureCheck choose_pixels(int width, int height,
                                                 std::uint64_t seed) {
     constexpr int side = PictureCheck::side;
@@ -53,14 +54,14 @@ struct PictureCheck {
     int last = -1;
     for (int i = 0; i < count; ++i) {
         const int number = int((i + next_1d<double>(stream)) * all / count);
-        if (number == std::exchange(last, number)) continue; // strata share a square
+        if (number == std::exchange(last, number)) continue; // chosen already
         const int left = number % columns * side, top = number / columns * side;
         std::vector<CheckedPixel> pixels;
         for (int y = top; y < std::min(top + side, height); ++y)
             for (int x = left; x < std::min(left + side, width); ++x)
                 pixels.push_back({.x = x, .y = y});
         const std::size_t wanted = std::min(pixels.size(), std::size_t(400 / count));
-        for (std::size_t k = 0; k < wanted; ++k) { // the first of a shuffle
+        for (std::size_t k = 0; k < wanted; ++k) { // the beginning of a shuffle
             const double rest = double(pixels.size() - k);
             std::swap(pixels[k],
                       pixels[k + std::size_t(next_1d<double>(stream) * rest)]);
@@ -105,7 +106,7 @@ void trace_round(PictureCheck& check, const W& world, const C& camera,
     check.seconds += now() - begin;
 }
 
-/// Whether paths carry all light of a scene, so that they can check a picture.
+/// Whether paths carry all light of a scene. Only then can they check a picture.
 template <ljus::AnyWorld W>
 [[nodiscard]] bool paths_carry_all(const W& world) {
     return path_remarks(world).size() ==
@@ -115,9 +116,10 @@ template <ljus::AnyWorld W>
 /// A mean and its standard error.
 struct Estimate {
     double value = 0; ///< The mean.
-    double error = 0; ///< Its standard error.
+    double error = 0; ///< Standard error of the mean.
 
-    /// The mean of some values, and the error by their scatter; of one value, itself.
+    /// The mean of some values, and its standard error from their scatter. For a single
+    /// value the error is the value itself.
     [[nodiscard]] static Estimate of(const std::vector<double>& values) {
         const double n = double(values.size());
         Estimate found;
@@ -129,26 +131,29 @@ struct Estimate {
             n > 1 ? std::sqrt(squares / (n * (n - 1))) : std::abs(found.value);
         return found;
     }
-    /// Three standard errors below it, at least 0: rare large values are common here.
+    /// Three standard errors below the mean, at least 0. Three are taken because the
+    /// values often contain rare large ones.
     [[nodiscard]] double low() const { return std::max(value - 3 * error, 0.0); }
-    /// Three standard errors above it, at least 0.
+    /// Three standard errors above the mean, at least 0.
     [[nodiscard]] double high() const { return std::max(value + 3 * error, 0.0); }
 };
 
-/// What a check found out about the mean of some pictures, in relMSE.
+/// The result of a check of the mean of some pictures, in relMSE.
 struct CheckedError {
-    Estimate bias{};   ///< Squared bias of a pixel, without noise.
+    Estimate bias{};   ///< Squared bias of a pixel, which does not include noise.
     Estimate blocks{}; ///< Error of the mean of a square of pixels.
 };
 
 /// Measures the bias and the error of a picture at the pixels of a check.
 ///
-/// Let P be the mean of the pictures, and A and B the halves of a pixel. All three are
-/// independent, so that the expected value of (P - A)(P - B) is the squared error of P.
-/// Without the variance of P, which the scatter of the pictures tells, it is the
-/// squared bias. Of a square, the products of the differences of different pixels are taken.
-/// \param check  At least one round.
-/// \param state  The pictures, by ljus::add_pass() with alpha 1.
+/// Let P be the mean of the pictures in a pixel, and A and B the means of its two
+/// halves. All three are independent, so that the expected value of (P - A)(P - B) is
+/// the squared error of P. The variance of P is known from the scatter of the pictures,
+/// and is subtracted. This leaves the squared bias. The squared error of the mean of a
+/// square is estimated by the products of the errors of two different pixels, over all
+/// such pairs.
+/// \param check  A check with at least one round.
+/// \param state  The pictures, added by ljus::add_pass() with alpha 1.
 /// \return Means over the squares and their standard errors.
 // [check]
 [[nodiscard]] inline CheckedError check_picture(const PictureCheck& check,
@@ -188,22 +193,23 @@ struct CheckedError {
 }
 // [check]
 
-/// An interval for an error in relMSE; three standard errors to both sides.
+/// An interval for an error in relMSE, of three standard errors to each side.
 struct ErrorInterval {
-    double low = 0;  ///< Its lower end.
-    double high = 0; ///< Its upper end.
+    double low = 0;  ///< Lower end.
+    double high = 0; ///< Upper end.
 };
 
 /// The intervals that a program states for the mean of some pictures.
 struct StatedError {
     ErrorInterval pixels{}; ///< relMSE of a pixel.
-    ErrorInterval blocks{}; ///< The same of the means of squares of 8 x 8 pixels.
+    ErrorInterval blocks{}; ///< relMSE of the mean of a square of 8 x 8 pixels.
 };
 
-/// The error of the mean of some pictures: their noise by their scatter, and their bias
-/// by a check.
-/// \param state  The pictures, by ljus::add_pass() with alpha 1.
-/// \param found  Of check_picture(); of one picture, its noise is part of the bias.
+/// The error of the mean of some pictures. The noise comes from the scatter of the
+/// pictures, and the bias from a check.
+/// \param state  The pictures, added by ljus::add_pass() with alpha 1.
+/// \param found  The result of check_picture(). For a single picture, the noise is part
+///               of the bias.
 [[nodiscard]] inline StatedError stated_error(const ljus::ProgressiveState& state,
                                               const CheckedError& found) {
     const double n = double(state.passes);
@@ -215,7 +221,8 @@ struct StatedError {
         ljus::block_means(ljus::mean_image<double>(state), state.block_side);
     double of_blocks = 0;
     for (std::size_t i = 0; i < means.pixels.size(); ++i) {
-        // The mean without its standard error: one bright ray may be all of both.
+        // The standard error is subtracted from the mean, because both may come from
+        // one bright ray.
         const auto variance = state.block_squares.pixels[i] / (n * (n - 1));
         const auto light = means.pixels[i] - glm::sqrt(variance);
         const auto part = variance / (light * light + ljus::default_epsilon);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/picture_cost.hpp
-/// \brief The cost of a picture and of its photon maps: for the terminal and for the
+/// \brief Prints the cost of a picture and of its photon maps, and writes it to the
 /// file beside the picture.
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace examples {
             {"cut_paths", counts.cut_paths}};
 }
 
-/// Prints the cost on the terminal.
+/// Prints the cost of a picture on the terminal.
 inline void print_cost(const ljus::Counts& counts, double seconds) {
     const auto over = [](auto a, auto b) { return double(a) / double(b); };
     std::printf("  %-16s %8.2f s  %" PRIu64
@@ -79,7 +79,8 @@ void print_map(const char* name, const ljus::PhotonMapT<T>& map, long long emitt
 }
 
 /// Prints the settings chosen for the caustics, in one line.
-/// \param settings  With the radius, and the shares of the objects if there are any.
+/// \param settings  The settings, with the chosen radius, and with the shares of the
+///                  objects if there are any.
 inline void print_caustics(const ljus::PhotonMappingSettings& settings) {
     const std::vector<double>& shares = settings.caustics.shares;
     std::printf("  %-16s %10s  radius %.3g", "caustics", "",

@@ -1,14 +1,12 @@
 #pragma once
 
 /// \file picture_slice.hpp
-/// \brief Slices: some rows of a picture in a file, and the merging of such files, so
-/// that machines without a connection can render one picture.
+/// \brief Saves some rows of a picture in a file, a *slice*, and merges such files.
+/// Machines without a connection can thus render one picture.
 ///
-/// The file of a slice begins with 16 letters that identify the format, its version,
-/// the slice's number, the count of slices, the bytes per channel and a checksum; then
-/// follow the size of the whole picture, exposure, cost, settings as JSON text, and the
-/// rows from the top. Numbers keep all their bits, lowest byte first. The file is
-/// written whole or not at all (save_file()).
+/// The file of a slice has the header of \ref binary_file, with the number of the
+/// slice, the count of slices and the bytes per channel. Then follow the size of the
+/// whole picture, exposure, cost, settings as JSON text, and the rows from the top.
 
 #include <algorithm>
 #include <array>
@@ -40,15 +38,14 @@ struct SliceNumber {
 /// The largest number of slices of a picture.
 inline constexpr int max_slices = 65536;
 
-/// "3/16".
+/// The number of a slice as text: "3/16".
 [[nodiscard]] inline std::string slice_text(const SliceNumber& slice) {
     return std::to_string(slice.number) + "/" + std::to_string(slice.count);
 }
 
-/// The number of "3/16".
-/// \param text  What the user gave.
-/// \return The number.
-/// \throws std::invalid_argument  if the text is not K/N.
+/// Reads the number of a slice.
+/// \param text  A text such as "3/16".
+/// \throws std::invalid_argument  if the text has another form.
 [[nodiscard]] inline SliceNumber slice_of(const std::string& text) {
     const auto numbers = two_numbers(text, '/');
     if (!numbers || numbers->first < 1 || numbers->first > numbers->second ||
@@ -60,9 +57,9 @@ inline constexpr int max_slices = 65536;
     return {numbers->first, numbers->second};
 }
 
-/// The rows of a slice; if there are more slices than rows, some have none.
-/// \param slice   Which one.
-/// \param height  Of the whole picture.
+/// The rows of a slice. If there are more slices than rows, some slices have no rows.
+/// \param slice   The number of the slice.
+/// \param height  Height of the whole picture, in pixels.
 [[nodiscard]] inline ljus::RowRange rows_of(const SliceNumber& slice, int height) {
     const auto begin = [&](long long number) {
         return static_cast<int>(height * number / slice.count);
@@ -72,15 +69,15 @@ inline constexpr int max_slices = 65536;
 
 /// Rows of a picture, and everything that identifies the picture.
 struct PictureSlice {
-    SliceNumber slice{};    ///< Which slice.
-    int width = 0;          ///< Of the whole picture.
-    int height = 0;         ///< Of the whole picture.
-    bool wide = false;      ///< Rendered in double.
-    double exposure = 0;    ///< Of a PNG file of the whole, in stops.
-    std::string settings{}; ///< JSON: scene, its hash, and every setting.
-    ljus::Counts counts{};  ///< What its rows cost.
-    double seconds = 0;     ///< Photons and rows.
-    std::vector<ljus::RgbT<double>> pixels{}; ///< Its rows, from the top.
+    SliceNumber slice{};    ///< Number of the slice.
+    int width = 0;          ///< Width of the whole picture.
+    int height = 0;         ///< Height of the whole picture.
+    bool wide = false;      ///< Whether the picture was rendered in double.
+    double exposure = 0;    ///< Exposure of a PNG file of the picture, in stops.
+    std::string settings{}; ///< The scene, its hash, and every setting, as JSON.
+    ljus::Counts counts{};  ///< Cost of the rows.
+    double seconds = 0;     ///< Time of photons and rows.
+    std::vector<ljus::RgbT<double>> pixels{}; ///< The rows, from the top.
 };
 
 inline constexpr ljus::FileFormat slice_format{"ljus picturepart", 1};
@@ -97,8 +94,8 @@ void each_slice_number(Slice& part, Each each) {
         each(*count);
 }
 
-/// Saves a slice: whole, or not at all.
-/// \param path  The file; an existing one is replaced when the new one is complete.
+/// Saves a slice, as save_file() does.
+/// \param path  The file.
 /// \param part  The slice.
 inline void save_slice(const std::string& path, const PictureSlice& part) {
     using ljus::put_number;
@@ -119,8 +116,8 @@ inline void save_slice(const std::string& path, const PictureSlice& part) {
     ljus::save_file(path, bytes);
 }
 
-// Whether a text can be the settings of a slice: an object, and not nested so deeply
-// that writing it again would overflow the stack.
+// Whether a text can be the settings of a slice. It must be a JSON object, and not
+// nested so deeply that writing it would overflow the stack.
 inline bool are_settings(const std::string& text) {
     bool shallow = true;
     const auto json = nlohmann::json::parse(
@@ -159,7 +156,7 @@ inline bool are_settings(const std::string& text) {
     const bool numbered = part.slice.number >= 1 && part.slice.count <= max_slices &&
                           part.slice.number <= part.slice.count;
     if (!sized || !numbered || (channel != 4 && channel != 8) || letters > file.left())
-        file.refuse("no slice has its numbers");
+        file.refuse("its numbers are not those of a slice");
     part.width = int(width);
     part.height = int(height);
     part.wide = channel == 8;
@@ -167,13 +164,13 @@ inline bool are_settings(const std::string& text) {
     part.settings.assign(text, text + std::ptrdiff_t(letters));
     file.position += letters;
     if (!std::isfinite(part.exposure) || !are_settings(part.settings))
-        file.refuse("no slice has its settings");
+        file.refuse("its settings are not those of a slice");
     const ljus::RowRange rows = rows_of(part.slice, part.height);
     const std::size_t pixels =
         std::size_t(width) * static_cast<std::size_t>(rows.last - rows.first);
     if (file.left() != 3 * channel * pixels)
         file.refuse("its " + std::to_string(file.bytes.size()) +
-                    " bytes do not go with its picture's size");
+                    " bytes do not match its picture's size");
     part.pixels.resize(pixels);
     for (ljus::RgbT<double>& color : part.pixels)
         color = part.wide ? file.take_vector<ljus::RgbT<double>>()
@@ -181,8 +178,8 @@ inline bool are_settings(const std::string& text) {
     return part;
 }
 
-// Why two slices are not of the same picture: the first setting that differs; empty if
-// none does.
+// The first setting in which two slices differ, in words; empty if they are of the same
+// picture.
 inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
     if (a.settings == b.settings)
         return a.width == b.width && a.height == b.height && a.wide == b.wide &&
@@ -203,13 +200,13 @@ inline std::string difference(const PictureSlice& a, const PictureSlice& b) {
 /// A picture merged from slices.
 struct MergedPicture {
     ljus::ImageT<double> image{}; ///< All rows.
-    bool wide = false;            ///< Rendered in double.
-    double exposure = 0;          ///< Of a PNG file, in stops.
-    std::string settings{};       ///< JSON, with the cost of all slices.
+    bool wide = false;            ///< Whether the picture was rendered in double.
+    double exposure = 0;          ///< Exposure of a PNG file, in stops.
+    std::string settings{}; ///< All settings, and the cost of all slices, as JSON.
 };
 
 /// Merges slices into one picture.
-/// \param paths  Their files, in any order.
+/// \param paths  The files of the slices, in any order.
 /// \return The picture, bit for bit as one process would have rendered it.
 /// \throws std::runtime_error  with one sentence if a slice is missing, given twice, of
 ///         another picture, or unreadable.
@@ -220,8 +217,8 @@ struct MergedPicture {
         std::string path;
         PictureSlice part;
     };
-    // Memory for the picture is taken when all of it is there: a small file may claim
-    // any size.
+    // Memory for the picture is allocated only when all slices are there, because a
+    // small file may declare any size.
     std::map<int, Named> parts;
     const PictureSlice* known = nullptr;
     for (const std::string& path : paths) {

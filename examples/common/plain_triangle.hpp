@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/plain_triangle.hpp
-/// \brief The formula of Möller and Trumbore as it is printed.
+/// \brief The formula of Möller and Trumbore, as in their paper.
 
 #include <optional>
 
@@ -12,7 +12,8 @@ namespace examples {
 /// Intersects a ray with a triangle: the plain twin of ljus::intersect(), in float.
 /// \param ray       Hits count in [t_min, t_max].
 /// \param triangle  A triangle of non-zero area.
-/// \return The hit, if there is one. Near edges, rounding in float can decide wrongly.
+/// \return The hit, if there is one. Near edges the answer can be wrong, because of
+///         rounding in float.
 // [plain]
 [[nodiscard]] inline std::optional<ljus::ShapeHitT<float>>
 intersect_plainly(const ljus::Ray& ray, const ljus::Triangle& triangle) {

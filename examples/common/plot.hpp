@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file plot.hpp
-/// \brief Plots and tables of the book, written as data and as gnuplot files.
+/// \brief Writes plots and tables for the book, as data and as gnuplot files.
 ///
-/// A program that makes figures writes the data to NAME.csv, and beside it NAME.gp for
-/// gnuplot or NAME.html for a chapter. `scripts/plot FOLDER` draws each .gp as an .svg
-/// that is readable in dark mode as well.
+/// The data are written to NAME.csv. A plot also gets NAME.gp for gnuplot, and a table
+/// NAME.html for a chapter. `scripts/plot FOLDER` draws each .gp as an .svg that is
+/// readable in dark mode as well.
 
 #include <algorithm>
 #include <cmath>
@@ -20,35 +20,36 @@
 
 namespace examples {
 
-/// A row of numbers, one per column; NaN leaves a cell empty, and an empty row
-/// interrupts the curves of a plot.
+/// A row of numbers, one per column. NaN leaves a cell empty. An empty row interrupts
+/// the curves of a plot.
 using Row = std::vector<double>;
 
-/// A plot: the first column is x, each other one a curve named by its heading (without
-/// a comma). The first curve is thick, so that it shows beneath another one.
+/// A plot. The first column is x. Each other column is a curve, whose name is the
+/// heading of the column and must not contain a comma. The first curve is thick, so
+/// that it is visible beneath another curve.
 struct Plot {
     std::string name;                 ///< Name of the files, e.g. "sphere-wrong".
-    std::vector<std::string> columns; ///< Headings; that of x labels its axis.
-    std::string y_label;              ///< What the curves show, with its unit.
+    std::vector<std::string> columns; ///< Headings; the first labels the x axis.
+    std::string y_label;              ///< The label of the y axis, with the unit.
     std::vector<Row> rows{};          ///< The data.
     bool log_x = false;               ///< Logarithmic x axis.
     bool log_y = false;               ///< Logarithmic y axis.
     std::string more = {}; ///< Further lines for gnuplot, e.g. "set key left".
-    std::vector<std::string> notes{}; ///< Head of the data: how it was measured.
+    std::vector<std::string> notes{}; ///< Comments at the beginning of the data: how
+                                      ///< they were measured.
 };
 
-/// A table: text or numbers, shown as they are given.
+/// A table of texts.
 struct Table {
     std::string name;                             ///< Name of the files.
     std::vector<std::string> columns;             ///< Headings.
     std::vector<std::vector<std::string>> rows{}; ///< Cells.
-    std::vector<std::string> notes{};             ///< As those of a plot.
+    std::vector<std::string> notes{};             ///< Comments, as in a plot.
 };
 
-/// A number as text: "%.4g", or an empty text for NaN.
+/// A number as text; empty for NaN.
 /// \param value   The number.
-/// \param format  For printf.
-/// \return The text.
+/// \param format  A format for printf.
 [[nodiscard]] inline std::string text(double value, const char* format = "%.4g") {
     if (std::isnan(value)) return {};
     char buffer[64];
@@ -57,8 +58,8 @@ struct Table {
 }
 
 /// Prints a row of a table on the terminal.
-/// \param row    Its cells.
-/// \param width  Of each, in letters.
+/// \param row    The cells of the row.
+/// \param width  Least width of a cell, in letters.
 inline void print_row(const std::vector<std::string>& row, int width = 12) {
     for (const std::string& cell : row) std::printf("%-*s ", width, cell.c_str());
     std::printf("\n");
@@ -66,7 +67,7 @@ inline void print_row(const std::vector<std::string>& row, int width = 12) {
 
 /// Prints the rows of a table, without its headings.
 /// \param table  The table.
-/// \param width  Of each cell, in letters.
+/// \param width  Least width of a cell, in letters.
 inline void print_rows(const Table& table, int width = 12) {
     for (const auto& row : table.rows) print_row(row, width);
 }
@@ -77,7 +78,7 @@ inline void print_rows(const Table& table, int width = 12) {
                                      [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Prints a table on the terminal: each column is as wide as its cells, and longer
+/// Prints a table on the terminal. Each column is as wide as its cells, and longer
 /// headings take several lines.
 /// \param table  The table.
 inline void print_table(const Table& table) {
@@ -114,16 +115,16 @@ inline void print_table(const Table& table) {
     for (const auto& row : table.rows) print([&](std::size_t c) { return row[c]; });
 }
 
-/// Saves a text, whole or not at all.
+/// Saves a text, as ljus::save_file() does.
 /// \param path      The file.
-/// \param contents  Its text.
+/// \param contents  The text of the file.
 inline void save_text(const std::string& path, const std::string& contents) {
     ljus::save_file(path, ljus::Bytes(contents.begin(), contents.end()));
 }
 
 /// One line of a CSV file.
-/// \param cells  The cells; those with a comma or a quote are quoted.
-/// \return The line with its line end.
+/// \param cells  The cells. A cell with a comma or a quotation mark is quoted.
+/// \return The line, with its line feed.
 [[nodiscard]] inline std::string csv_line(const std::vector<std::string>& cells) {
     std::string line;
     for (const std::string& cell : cells) {
@@ -140,10 +141,9 @@ inline void save_text(const std::string& path, const std::string& contents) {
     return line + '\n';
 }
 
-/// The first lines of a CSV file: notes, each after a #, and the headings.
+/// The first lines of a CSV file: the notes, each after a #, and the headings.
 /// \param notes     How the numbers were measured.
-/// \param headings  Of the columns.
-/// \return The lines.
+/// \param headings  The headings of the columns.
 [[nodiscard]] inline std::string csv_head(const std::vector<std::string>& notes,
                                           const std::vector<std::string>& headings) {
     std::string head;
@@ -152,7 +152,7 @@ inline void save_text(const std::string& path, const std::string& contents) {
 }
 
 /// Saves the data of a plot as NAME.csv and its instructions as NAME.gp.
-/// \param folder  Where to; it exists.
+/// \param folder  The folder for the files, which exists.
 /// \param plot    The plot.
 inline void save_plot(const std::string& folder, const Plot& plot) {
     std::string csv = csv_head(plot.notes, plot.columns);
@@ -216,7 +216,7 @@ inline std::string escaped(const std::string& text) {
 }
 
 /// Saves a table as NAME.csv and, for the chapter, as NAME.html.
-/// \param folder  Where to; it exists.
+/// \param folder  The folder for the files, which exists.
 /// \param table   The table.
 inline void save_table(const std::string& folder, const Table& table) {
     std::string csv = csv_head(table.notes, table.columns);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file program_files.hpp
-/// \brief No program writes over what it reads, or over another of its own files.
+/// \brief Makes sure that a program overwrites neither a file that it reads nor another
+/// file that it writes.
 
 #include <algorithm>
 #include <filesystem>
@@ -17,13 +18,14 @@ namespace examples {
 
 /// A file that a program is about to write.
 struct OutputFile {
-    std::string name; ///< What the user knows it by: "--out".
-    std::string path; ///< Empty if it is not asked for.
+    std::string name; ///< The option that names it: "--out".
+    std::string path; ///< Path of the file; empty if no file is wanted.
 };
 
-// The place of a file that may not exist yet, without links, also those to nowhere.
+// The absolute path of a file with all links resolved. Neither the file nor the target
+// of a link has to exist.
 [[nodiscard]] inline std::filesystem::path place_of(const std::string& file) {
-    std::error_code error; // what cannot be looked at is compared as it is written
+    std::error_code error; // errors leave the path as it is
     std::filesystem::path path = std::filesystem::absolute(file, error);
     for (int i = 0; i < 40 && std::filesystem::is_symlink(path, error); ++i)
         path = path.parent_path() / std::filesystem::read_symlink(path, error);
@@ -31,8 +33,9 @@ struct OutputFile {
     return place.empty() ? path.lexically_normal() : place;
 }
 
-// How the first of two files stands to the second: "is" if they are one, by whatever
-// names, "stands below" if the second would have to be a folder, or nothing.
+// The relation of a file to another one: "is" if both are the same file, even by
+// different names; "stands below" if the other one would have to be a folder; otherwise
+// empty.
 [[nodiscard]] inline std::string relation(const std::string& a, const std::string& b) {
     std::error_code error;
     const auto first = place_of(a), second = place_of(b);
@@ -49,12 +52,12 @@ struct OutputFile {
     return paths;
 }
 
-/// Makes sure, before any work is done, that every file can be written, and that none
-/// of them is one of the others or one that the program reads: by any name, link or
-/// hard link. Makes their folders.
+/// Makes sure, before the program begins its work, that every file can be written, and
+/// that no file is written twice or is also read, even by different names or links.
+/// Creates the folders of the files.
 /// \param outputs  All files that the program will write.
-/// \param inputs   The paths of all files that it reads.
-/// \throws std::invalid_argument  with the names of two files that are one.
+/// \param inputs   The paths of all files that the program reads.
+/// \throws std::invalid_argument  with the names of both files, if two are the same.
 /// \throws std::runtime_error     with path and reason if a file cannot be written.
 inline void require_outputs(std::vector<OutputFile> outputs,
                             const std::vector<std::string>& inputs) {

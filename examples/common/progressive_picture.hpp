@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file progressive_picture.hpp
-/// \brief A picture made pass by pass: it has a preview, and can be stopped, killed and
-/// resumed.
+/// \brief Makes a picture pass by pass, with previews and checkpoints from which it can
+/// be resumed.
 
 #include <cstdio>
 #include <filesystem>
@@ -20,34 +20,36 @@ namespace examples {
 
 /// The options of a picture in passes.
 struct PassOptions {
-    long long passes = 0;        ///< How many; 0: not asked for.
-    double alpha = 2.0 / 3;      ///< How fast the radius shrinks; 1: not at all.
+    long long passes = 0;   ///< Number of passes; 0: no passes.
+    double alpha = 2.0 / 3; ///< How slowly the radius shrinks; with 1 it is constant.
     std::string checkpoint = {}; ///< File to save the state to; empty: none.
     std::string preview = {};    ///< PNG file to save a preview to; empty: none.
     double every = 2;            ///< Seconds between saves; 0: after each pass.
     bool resume = false;         ///< Whether to continue from the checkpoint.
-    double exposure = 0;         ///< Of the preview, in stops.
-    std::string picture = {};    ///< What the passes are of: picture_text().
+    double exposure = 0;         ///< Exposure of the preview, in stops.
+    std::string picture = {};    ///< The text of picture_text(), which identifies the
+                                 ///< picture.
 };
 
 /// Adds the options of passes to a command line.
 /// \param line  The command line.
-/// \param how   Receives the user's values; must live until the line is parsed.
+/// \param how   Receives the values; must live until the line is parsed.
 inline void add_pass_options(CommandLine& line, PassOptions& how) {
-    line.add("--passes", how.passes, "How many, each with photons of its own", 1,
+    line.add("--passes", how.passes, "Number of passes, each with its own photons", 1,
              1'000'000'000);
-    line.add("--alpha", how.alpha, "How slowly their radius shrinks; 1: not at all",
-             1e-3, 1);
+    line.add("--alpha", how.alpha, "How slowly the radius shrinks; 1: not at all", 1e-3,
+             1);
     line.add("--checkpoint FILE", how.checkpoint, "File to resume the passes from");
     line.add("--resume", how.resume, "Continue from the checkpoint");
     line.add("--preview FILE", how.preview, "PNG file of the passes so far");
-    line.add("--every", how.every, "Seconds between such files; 0: after each pass", 0,
+    line.add("--every", how.every, "Seconds between saved files; 0: after each pass", 0,
              1e6);
 }
 
-/// Refuses names of files that conflict, and a checkpoint that would be lost.
+/// Refuses options that do not fit together, and a new checkpoint that would replace an
+/// existing one.
 /// \param how  The options.
-/// \throws std::invalid_argument  with what would be right.
+/// \throws std::invalid_argument  with one sentence about the option.
 inline void check_pass_files(const PassOptions& how) {
     if (how.resume && how.checkpoint.empty())
         throw std::invalid_argument("--resume needs --checkpoint FILE.");
@@ -56,20 +58,20 @@ inline void check_pass_files(const PassOptions& how) {
         throw std::invalid_argument("--preview is " + how.preview +
                                     "; its name must end with .png.");
     if (!how.resume && !how.checkpoint.empty() &&
-        std::filesystem::exists(how.checkpoint)) // it may hold hours of work
+        std::filesystem::exists(how.checkpoint)) // maybe hours of work
         throw std::invalid_argument("--checkpoint is " + how.checkpoint +
                                     ", which is there already; it must be a new file, "
                                     "unless --resume goes on from it.");
 }
 
 /// Makes the passes.
-/// \param how    What the user asked for.
-/// \param quiet  Draw no progress bar.
+/// \param how    The options.
+/// \param quiet  Whether to draw no progress bar.
 /// \param pass   Called as pass(i, scale); see \ref progressive.
 /// \return The state after the last pass.
-/// \throws Interrupted  after Ctrl-C; the passes done so far are in the checkpoint.
-/// \throws std::invalid_argument  if the checkpoint is of another picture, with what
-///                                differs, or has more passes.
+/// \throws Interrupted after Ctrl-C; the checkpoint then has all finished passes.
+/// \throws std::invalid_argument  if the checkpoint is of another picture, or has more
+///         passes.
 template <typename RenderPass>
 [[nodiscard]] ljus::ProgressiveState run_passes(const PassOptions& how, bool quiet,
                                                 RenderPass&& pass) {
@@ -89,7 +91,7 @@ template <typename RenderPass>
     if (how.resume) {
         state = load_checkpoint(how.checkpoint);
         require_same_picture(how.checkpoint, state.picture, how.picture);
-        if (state.passes > how.passes) // it would be saved as one of fewer passes
+        if (state.passes > how.passes) // some passes would be lost
             throw std::invalid_argument("--passes is " + std::to_string(how.passes) +
                                         "; it must be at least " +
                                         std::to_string(state.passes) +
@@ -117,7 +119,7 @@ template <typename RenderPass>
 }
 
 /// Prints the passes, the standard errors and the radius on the terminal.
-/// \param state  Of at least one pass.
+/// \param state  The state after at least one pass.
 inline void print_passes(const ljus::ProgressiveState& state) {
     const auto error = ljus::estimate_error(state);
     std::printf("%lld passes, standard error %.3g per pixel, %.3g per block of "

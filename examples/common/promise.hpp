@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/promise.hpp
-/// \brief A picture within a given time, or with a given error: chooses the settings,
-/// and the number of pictures to average.
+/// \brief Chooses the settings for a picture within a given time, or with a given
+/// error, and how many such pictures to average.
 
 #include <algorithm>
 #include <cmath>
@@ -18,20 +18,21 @@
 
 namespace examples {
 
-/// One way to make a picture; seeds and threads are the caller's.
+/// One way to make a picture. The caller sets seeds and threads.
 struct Recipe {
-    std::string name{};                     ///< Its name for the user.
+    std::string name{};                     ///< The name that the user sees.
     ljus::PhotonMappingSettings settings{}; ///< The settings of one picture.
     int rays = 1;                           ///< Rays per pixel.
-    double bias = 0; ///< Squared bias in relMSE, as in the rooms of Trades.
+    double bias = 0; ///< Squared bias in relMSE, as measured in the rooms of the
+                     ///< chapter Trades.
 };
 
-/// The recipes that a promise chooses from, the quickest first: the presets, with
-/// photons in proportion to the pixels, and few rays, since several pictures are
-/// averaged. Each pixel gets the same number of rays.
-/// \param width   Of the picture, in pixels.
-/// \param height  Of the picture, in pixels.
-/// \return draft, fast and exact.
+/// The recipes from which a promise chooses, the quickest first. They are the presets,
+/// with few rays per pixel, because several pictures are averaged. The number of
+/// photons is proportional to the number of pixels.
+/// \param width   Width of the picture, in pixels.
+/// \param height  Height of the picture, in pixels.
+/// \return The recipes draft, fast and exact.
 [[nodiscard]] inline std::vector<Recipe> recipes(int width, int height) {
     using enum ljus::Preset;
     std::vector<Recipe> all{{"draft", preset_settings(draft, width, height), 1, 0.003},
@@ -44,30 +45,30 @@ struct Recipe {
     return all;
 }
 
-/// What a pilot has found out about one recipe. Errors are in relMSE.
+/// The forecast of a pilot for one recipe. Errors are in relMSE.
 struct Forecast {
-    double seconds = 0; ///< Time of one picture.
-    double noise = 0;   ///< Variance of one picture; the mean of n has noise / n.
+    double seconds = 0; ///< Time of one picture, in seconds.
+    double noise = 0;   ///< Variance of one picture; noise / n for the mean of n.
     double bias = 0;    ///< Squared bias, which averaging does not reduce.
     double unsure = 0;  ///< Standard error of the squared bias.
 };
 
-/// What the user has been promised: a time or an error.
+/// The promise to the user: a time or an error.
 struct Promise {
-    double seconds = 0; ///< Time for the whole picture; 0: as long as it takes.
-    double error = 0;   ///< relMSE; 0: as small as the seconds allow.
+    double seconds = 0; ///< Time for the whole picture; 0: no limit.
+    double error = 0;   ///< relMSE; 0: as small as the time allows.
 };
 
-/// Combines two estimates of a squared bias: the pilot's measurement, and the value of
-/// the book's rooms.
+/// Combines two estimates of a squared bias: the measurement of a pilot, and the value
+/// that was measured in the rooms of the book.
 ///
-/// A short pilot measures mostly its own noise, and then the book's value is the better
-/// guess. The two are weighted by their inverse variances; the standard error of the
-/// book's value is taken to be the value itself.
-/// \param measured  The pilot's value; it may be negative.
-/// \param error     Its standard error; infinity: there was no pilot.
-/// \param expected  The book's value.
-/// \return A forecast with the bias and its standard error; the rest is 0.
+/// A short pilot measures mostly its own noise. The value of the book is then the
+/// better guess. Both are weighted by their inverse variances, where the standard error
+/// of the book's value is taken to be the value itself.
+/// \param measured  The value of the pilot; may be negative.
+/// \param error     The standard error of that value; infinity if there was no pilot.
+/// \param expected  The value of the book.
+/// \return A forecast of the bias and its standard error; its other members are 0.
 // [weigh]
 [[nodiscard]] inline Forecast weigh(double measured, double error, double expected) {
     if (std::isinf(error)) return {.bias = expected, .unsure = expected};
@@ -79,48 +80,53 @@ struct Promise {
 }
 // [weigh]
 
-/// The variance that may be added to an uncertain squared bias without exceeding an
-/// error: the error minus the bias and its standard error, but at least half of the
-/// error minus the bias.
+/// The variance that a mean of pictures may have without exceeding an error. It is the
+/// error minus the squared bias and its standard error, but at least half of the error
+/// minus the squared bias.
 /// \param found  The forecast.
-/// \param error  relMSE.
-/// \return At most 0 if the bias alone is larger than the error.
+/// \param error  The error, in relMSE.
+/// \return The variance in relMSE; 0 or negative if the squared bias alone exceeds the
+///         error.
 [[nodiscard]] inline double room_for_noise(const Forecast& found, double error) {
     const double left = error - found.bias;
     return std::max(left - found.unsure, left / 2);
 }
 
-/// The number of pictures that reach an error.
+/// The number of pictures whose mean reaches an error.
 ///
-/// The mean of n pictures has variance v / n, which few pictures estimate badly. As a
-/// margin, v (1 + 2/n) / n must fall to what the bias leaves.
+/// The mean of n pictures has variance v / n. From few pictures this is estimated
+/// badly. As a margin, the smallest n is taken for which v (1 + 2/n) / n is at most
+/// `spare`.
 /// \param noise  v, the variance of one picture.
-/// \param spare  The result of room_for_noise(), above 0.
+/// \param spare  The allowed variance, from room_for_noise(); above 0.
 /// \return A whole number, at least 2.
 [[nodiscard]] inline double pictures_for(double noise, double spare) {
     const double a = noise / spare;
     return std::max(2.0, std::ceil((a + std::sqrt(a * a + 8 * a)) / 2));
 }
 
-/// How to keep a promise.
+/// The choice of a recipe that keeps a promise.
 struct Choice {
     std::size_t recipe = 0; ///< Index of the recipe.
     long long pictures = 1; ///< Number of pictures to average.
-    double seconds = 0;     ///< Expected time of all of them.
+    double seconds = 0;     ///< Expected time of all pictures, in seconds.
     double error = 0;       ///< Expected relMSE of their mean.
     bool possible = true;   ///< Whether the promise can be kept.
 };
 
-/// The recipe that keeps a promise best.
+/// Chooses the recipe that keeps a promise best.
 ///
-/// *Seconds*: the recipe with the least error among those that meet the time within a
-/// tenth by a whole number of pictures, at least 2 so that their scatter gives the
-/// error. *Error*: the recipe that takes the least time among those whose bias plus its
-/// standard error is at most half of the error.
+/// If a time is promised, a recipe is possible if at least 2 whole pictures take that
+/// time, within a tenth. At least 2 are needed because their scatter gives the error.
+/// Of the possible recipes the one with the least error is chosen. If an error is
+/// promised, a recipe is possible if its squared bias plus the standard error of that
+/// bias is at most half of the error. Of the possible recipes the one that takes the
+/// least time is chosen.
 /// \param found     One forecast for each recipe.
 /// \param promise   Seconds, or an error.
 /// \param left      The promised seconds minus those of the pilot.
-/// \return If no recipe can keep it: the quickest, or the one with the least bias.
+/// \return The choice. If no recipe is possible, the quickest is chosen for a promised
+///         time, and the one with the least bias for a promised error.
 [[nodiscard]] inline Choice choose(const std::vector<Forecast>& found,
                                    const Promise& promise, double left = 0) {
     Choice best{.possible = false};
@@ -142,7 +148,7 @@ struct Choice {
         }
         const bool better = possible == best.possible ? worth < of_best : possible;
         if (i > 0 && !better) continue;
-        n = std::min(n, 1e12); // infinity has no whole number
+        n = std::min(n, 1e12); // because infinity does not fit into an integer
         best = {i, static_cast<long long>(n), n * seconds, bias + noise / n, possible};
     }
     return best;
@@ -155,17 +161,17 @@ struct Choice {
     return text;
 }
 
-/// A squared bias, with its standard error if it has one.
+/// A squared bias as text, with its standard error if that is not 0.
 [[nodiscard]] inline std::string bias_text(const Forecast& found) {
     const std::string text = two_digits(found.bias);
     return found.unsure > 0 ? text + " ± " + two_digits(found.unsure) : text;
 }
 
-/// Says in two sentences what was chosen and why.
-/// \param found    As for choose().
-/// \param names    Of the recipes.
+/// Two sentences that say what was chosen and why.
+/// \param found    The forecasts, as in choose().
+/// \param names    The recipes.
 /// \param promise  Seconds, or an error.
-/// \param choice   Of choose().
+/// \param choice   The result of choose().
 [[nodiscard]] inline std::string reason(const std::vector<Forecast>& found,
                                         const std::vector<Recipe>& names,
                                         const Promise& promise, const Choice& choice) {
@@ -202,17 +208,18 @@ struct Choice {
     return text + "The others: " + others + ".";
 }
 
-/// The brightness of each pixel of the mean of some pictures, as the divisor of
-/// relative errors.
+/// The brightness of each pixel in the mean of some pictures, by which errors are
+/// divided to make them relative.
 ///
-/// An exact mean could be used as it is. Dividing the noise of a noisy pixel by the
-/// square of its own value would hide that noise. Therefore, as the relative standard
-/// error of a pixel rises from 0 to a half, its value is blended into the mean of its
-/// neighbourhood.
-/// \param state  The pictures, by ljus::add_pass() with alpha 1, at least 2.
-/// \param own    Whether a pixel belongs to its neighbourhood. A single bright ray
-///               makes that bright as well, and its own error small; without it, the
-///               error of a highlight that is really there is large.
+/// A pixel with a large error may be much too bright. Divided by its own brightness,
+/// that error would seem small. The brightness of a pixel is therefore blended with the
+/// mean of its neighbourhood, in proportion to its squared relative standard error, and
+/// replaced by that mean if the relative standard error is a half or more.
+/// \param state  At least 2 pictures, added by ljus::add_pass() with alpha 1.
+/// \param own    Whether the neighbourhood of a pixel includes the pixel itself. If so,
+///               a single bright ray makes the neighbourhood bright too, and the error
+///               of that ray seems small. If not, the error of a real highlight seems
+///               large.
 [[nodiscard]] inline ljus::ImageT<double> levels(const ljus::ProgressiveState& state,
                                                  bool own = true) {
     const auto mean = ljus::mean_image<double>(state);
@@ -245,9 +252,9 @@ struct Choice {
 }
 
 /// The variance of the mean of some pictures, from their scatter, in relMSE.
-/// \param state  The pictures, of different seeds, by ljus::add_pass() with alpha 1.
-/// \param own    As for levels().
-/// \return Infinity for fewer than two.
+/// \param state  Pictures with different seeds, added by ljus::add_pass() with alpha 1.
+/// \param own    As in levels().
+/// \return The variance; infinity for fewer than two pictures.
 [[nodiscard]] inline double relative_noise(const ljus::ProgressiveState& state,
                                            bool own = true) {
     if (state.passes < 2) return std::numeric_limits<double>::infinity();

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/promised_picture.hpp
-/// \brief Keeps a promise of a time or an error: small pictures forecast what each
-/// recipe would achieve, one recipe is chosen, and its pictures are averaged.
+/// \brief Keeps a promise of a time or an error. Small pictures forecast the result of
+/// each recipe. One recipe is chosen, and its pictures are averaged.
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +33,12 @@ inline constexpr auto recipe_abilities =
 template <std::floating_point T>
 struct Shot {
     ljus::RenderedT<T> rendered{};          ///< The picture.
-    ljus::PhotonMappingSettings settings{}; ///< With the radii that were chosen.
-    std::string remarks{};                  ///< Of mapper_remarks().
+    ljus::PhotonMappingSettings settings{}; ///< The settings, with the radii that were
+                                            ///< chosen.
+    std::string remarks{};                  ///< The result of mapper_remarks().
     double bytes = 0;                       ///< Memory of the photon maps.
-    double photons = 0;                     ///< Seconds of the photon maps.
-    double rest = 0;                        ///< Seconds of everything else.
+    double photons = 0;                     ///< Time of the photon maps, seconds.
+    double rest = 0;                        ///< Time of everything else, seconds.
 };
 
 /// Makes one picture.
@@ -84,18 +85,20 @@ shoot(const W& world, const C& camera, const Recipe& recipe,
     return seed + 0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(i);
 }
 
-/// A recipe that a pilot tries, and its small pictures.
+/// A recipe that a pilot tries, with its small pictures.
 struct Trial {
     Recipe recipe{};
-    std::vector<double> seconds{}; ///< Expected times of the large picture.
-    std::vector<ljus::ImageT<double>> pictures{}; ///< Of different seeds.
-    ljus::ProgressiveState state{.alpha = 1};     ///< Their sums.
+    std::vector<double> seconds{}; ///< Forecasts of the time of the large picture.
+    std::vector<ljus::ImageT<double>> pictures{}; ///< Small pictures with different
+                                                  ///< seeds.
+    ljus::ProgressiveState state{.alpha = 1};     ///< Sums of the small pictures.
 };
 
-/// The differences of a trial's pictures from the judge's, seed by seed: both use the
-/// same camera rays, so that their common noise cancels.
+/// The differences between the pictures of a trial and those of the judge with the same
+/// seeds. Both have the same camera rays, so that their common noise cancels. For the
+/// judge see pilot().
 /// \param trial  The trial.
-/// \param judge  The judge, with as many pictures.
+/// \param judge  The judge; it has as many pictures.
 [[nodiscard]] inline std::vector<ljus::ImageT<double>> apart(const Trial& trial,
                                                              const Trial& judge) {
     const auto truth = levels(judge.state);
@@ -109,16 +112,17 @@ struct Trial {
     return all;
 }
 
-/// A pilot: the recipes that it tries, and their pictures so far.
+/// The state of a pilot: the recipes that it tries, and their pictures so far.
 struct PilotRun {
-    ljus::RenderSettings small{}; ///< The small picture.
-    double all = 0;               ///< Pixels of the large picture.
-    double pixels = 0;            ///< Pixels of the small one.
+    ljus::RenderSettings small{}; ///< Settings of the small pictures.
+    double all = 0;               ///< Number of pixels of the large picture.
+    double pixels = 0;            ///< Number of pixels of a small picture.
     std::vector<Recipe> large{};  ///< The recipes for the large picture.
-    std::vector<Trial> trials{};  ///< Those for the small one; the judge is the last,
-                                  ///< unless it is one of the others.
+    std::vector<Trial> trials{};  ///< The trials. The judge is the last of them, as one
+                                  ///< more trial or as one of the recipes.
 
-    /// The number of photons of the large picture, relative to the small one.
+    /// The number of caustic photons in the large picture, divided by that in a small
+    /// one.
     [[nodiscard]] double photons(std::size_t i) const {
         return double(large[i].settings.caustics.photons) /
                double(trials[i].recipe.settings.caustics.photons);
@@ -153,7 +157,7 @@ template <ljus::AnyWorld W>
 /// \param i       Index of the trial.
 /// \param world   The closed scene.
 /// \param camera  Any camera.
-/// \param seed    Of the large picture.
+/// \param seed    The seed of the large picture.
 /// \param now     A clock, in seconds.
 template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
@@ -172,9 +176,10 @@ void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
                                 shot.rest * run.all / run.pixels);
 }
 
-/// What the trials so far forecast for the large picture.
+/// The forecasts for the large picture, from the trials so far.
 /// \param run     The pilot; each trial has at least one picture.
-/// \param judged  Whether the judge was tried as well, so that biases can be measured.
+/// \param judged  Whether the judge was tried as well, so that the bias can be
+///                measured.
 /// \return A forecast for each recipe that was tried.
 [[nodiscard]] inline std::vector<Forecast> forecasts(const PilotRun& run, bool judged) {
     const auto none = ljus::make_image<double>(run.small.width, run.small.height);
@@ -197,28 +202,29 @@ void try_again(PilotRun& run, std::size_t i, const W& world, const C& camera,
     return found;
 }
 
-/// Forecasts the result of each recipe by small pictures: of at most 64 x 64 pixels,
+/// Forecasts the result of each recipe by small pictures of at most about 4096 pixels,
 /// with photons in proportion.
 ///
-/// The bias is measured against a *judge*: "exact" with eight times the photons, and so
-/// about a third of the radius. The blur that remains at that radius is not measured.
-/// The estimate itself is unbiased, since it multiplies only differences of different
-/// seeds; it is scaled to the photons of the large picture by their square root, and
-/// combined with the book's value.
+/// The bias is measured against a *judge*: the recipe "exact" with eight times the
+/// photons, and therefore about a third of the radius. The bias of the judge itself is
+/// not measured. The squared bias is estimated without bias, by products of differences
+/// with different seeds. It is divided by the square root of PilotRun::photons(), for
+/// the large picture, and combined with the value of the book.
 /// \param world    The closed scene.
 /// \param camera   Any camera.
-/// \param picture  The one that is promised.
-/// \param promise  The pilot takes an eighth of the promised time; if an error is
-///                 promised, an eighth of the expected time, but at most 10 s. After
-///                 that time no further recipe is tried if seconds are promised, and
-///                 after half of it not the judge.
+/// \param picture  The picture that is promised.
+/// \param promise  The promise. The pilot takes an eighth of the promised time. If an
+///                 error is promised, the pilot takes an eighth of the expected time,
+///                 at most 10 s. If a time is promised and the pilot's time is over, no
+///                 further recipe is tried. The judge is not tried after half of the
+///                 pilot's time.
 /// \param now      A clock, in seconds.
-/// \return A forecast for each recipe that was tried, for the picture itself.
+/// \return A forecast for each recipe that was tried.
 template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 [[nodiscard]] std::vector<Forecast> pilot(const W& world, const C& camera,
                                           const ljus::RenderSettings& picture,
                                           const Promise& promise, Clock&& now) {
-    constexpr std::size_t least = 3, most = 64; // pictures of each
+    constexpr std::size_t least = 3, most = 64; // pictures by each recipe
     PilotRun run = make_pilot(world, picture);
     const auto try_again = [&](std::size_t i) {
         examples::try_again(run, i, world, camera, picture.seed, now);
@@ -229,7 +235,7 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
                                    : std::min(choose(found, promise).seconds / 8, 10.0);
     };
     for (std::size_t i = 0; i < run.trials.size(); ++i) {
-        const bool judge = i == run.large.size(); // as long as all others together
+        const bool judge = i == run.large.size(); // it takes as long as all others
         const double limit = judge                 ? patience(forecasts(run, false)) / 2
                              : promise.seconds > 0 ? promise.seconds / 8
                                                    : std::numeric_limits<double>::max();
@@ -253,18 +259,18 @@ template <ljus::AnyWorld W, ljus::CameraLike C, typename Clock>
 template <std::floating_point T>
 struct Kept {
     ljus::RenderedT<T> rendered{}; ///< The mean of all pictures, and their total cost.
-    Recipe recipe{};               ///< The recipe of each.
+    Recipe recipe{};               ///< The recipe of these pictures.
     std::vector<Forecast> found{}; ///< The pilot's forecasts.
-    Choice choice{};               ///< What was chosen,
-    std::string why{};             ///< and why, in sentences.
-    std::string remarks{};         ///< Of mapper_remarks().
+    Choice choice{};               ///< The choice of the recipe.
+    std::string why{};             ///< The reason for the choice, in sentences.
+    std::string remarks{};         ///< The result of mapper_remarks().
     long long pictures = 0;        ///< The number of pictures.
-    double seconds = 0;            ///< Time since the clock began, with the pilot.
-    double noise = 0;              ///< Variance of the mean, from the scatter.
-    PictureCheck check{};          ///< Path-traced pixels; no rounds if paths do not
-                                   ///< carry all light of the scene.
-    StatedError stated{};          ///< The error that is stated; high is infinity for
-                                   ///< blocks that were not checked.
+    double seconds = 0;            ///< Time since the clock began, including the pilot.
+    double noise = 0;     ///< Variance of the mean, from the scatter of the pictures.
+    PictureCheck check{}; ///< Path-traced pixels; without rounds if paths do
+                          ///< not carry all light of the scene.
+    StatedError stated{}; ///< The stated error; without a check the upper end
+                          ///< for blocks is infinity.
 
     /// The forecast for the chosen recipe, with the bias that the check has measured.
     [[nodiscard]] const Forecast& forecast() const { return found[choice.recipe]; }
@@ -279,7 +285,8 @@ struct Kept {
     }
 };
 
-/// The error that is stated for a picture, and by what: "0.004 to 0.007 (...)".
+/// The stated error of a picture and how it was measured, such as "0.004 to 0.007
+/// (...)".
 template <std::floating_point T>
 [[nodiscard]] std::string stated_text(const Kept<T>& kept) {
     const auto text = [](const ErrorInterval& interval) {
@@ -294,9 +301,9 @@ template <std::floating_point T>
            " path-traced pixels)";
 }
 
-/// Measures the error of the pictures so far by a check, and takes what it found in
-/// place of the forecast.
-/// \param kept    The check; gets the error that is stated.
+/// Measures the error of the pictures so far by a check, and replaces the forecast of
+/// the bias by the measured bias.
+/// \param kept    Has the check; receives the stated error and the bias.
 /// \param state   The pictures.
 /// \param trace   Called as trace(check) for one more round of rays.
 /// \param limit   Seconds that all rounds may take.
@@ -312,18 +319,20 @@ void measure_error(Kept<T>& kept, const ljus::ProgressiveState& state, Trace&& t
     forecast.unsure = found.bias.error;
 }
 
-/// Keeps a promise: a pilot, a choice, and pictures until it is kept.
+/// Keeps a promise: runs a pilot, chooses a recipe, and makes pictures until the
+/// promise is kept.
 ///
-/// A fifth of the time goes into path-traced pixels of the same picture, about 400, by
-/// which the bias of the mean is measured. If that is larger than the pilot has
+/// A fifth of the time is spent on about 400 path-traced pixels of the picture, by
+/// which the bias of the mean is measured. If the measured bias is larger than the
 /// forecast, a recipe with less bias may take over.
 /// \param world    The closed scene.
 /// \param camera   Any camera.
 /// \param picture  Size, seed, threads.
 /// \param promise  Seconds, or an error.
-/// \param now      A clock, in seconds; it began at 0 when the promise was given.
-/// \param quiet    Draw no progress bar.
-/// \param tell     Called once with a Kept whose members down to `why` are known.
+/// \param now      A clock in seconds, which was 0 when the promise was given.
+/// \param quiet    Whether to draw no progress bar.
+/// \param tell     Called once when the recipe has been chosen, with a Kept whose
+///                 members down to `why` are set.
 /// \return The picture.
 /// \throws Interrupted  after Ctrl-C.
 /// \throws std::invalid_argument  for an error that is below the bias of all recipes.
@@ -345,12 +354,12 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
                                     "; the least bias of all "
                                     "settings is " +
                                     two_digits(kept.forecast().bias) +
-                                    " here, and no time takes it away.");
+                                    " here, and more time does not reduce it.");
     tell(kept);
 
     ProgressBar bar("pictures", quiet);
     const double pilot_seconds = now();
-    double begun = pilot_seconds; // with the recipe
+    double begun = pilot_seconds; // start of this recipe
     auto draw = [&](long long, long long) {
         const double part = (now() - pilot_seconds) / kept.choice.seconds;
         return bar(static_cast<long long>(1000 * std::min(part, 1.0)), 1000);
@@ -386,7 +395,8 @@ keep(const W& world, const C& camera, ljus::RenderSettings picture,
                 kept.stated.pixels.high <= promise.error || noise < promise.error / 8;
         else
             done = noise <= room_for_noise(found, promise.error);
-        // A measured bias that is larger than was forecast: with less of it, better?
+        // If the measured bias is larger than the forecast, another recipe may be
+        // better.
         if (!checks || done || kept.pictures != 2) continue;
         const Choice again = choose(kept.found, promise, promise.seconds - now());
         if (again.recipe <= kept.choice.recipe) continue;

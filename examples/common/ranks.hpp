@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ranks.hpp
-/// \brief Processes that make one picture together by MPI, and agree on which.
+/// \brief Processes that make one picture together by MPI.
 
 #include <numeric>
 #include <stdexcept>
@@ -16,14 +16,14 @@
 
 namespace examples {
 
-/// One of several processes that have a job together.
+/// One of several processes that share a job.
 struct Rank {
-    int number = 0;   ///< From 0 on.
-    int count = 1;    ///< How many there are.
-    bool met = false; ///< Whether it has met the others; see agree().
+    int number = 0;   ///< The number of this process, from 0.
+    int count = 1;    ///< The number of processes.
+    bool met = false; ///< Whether this process has called agree().
 };
 
-// Whether all ranks have come to do the work; each tells once.
+// Whether all ranks are ready for the work. Each rank calls this once.
 inline bool all_come(Rank& rank, bool this_one) {
     rank.met = true;
     int all = this_one ? 1 : 0;
@@ -31,10 +31,11 @@ inline bool all_come(Rank& rank, bool this_one) {
     return all == 1;
 }
 
-/// Goes on if all ranks have come, and are to make the picture of the first one.
-/// \param rank     This one.
-/// \param picture  Its picture_text().
-/// \throws std::runtime_error  if one has not come, or with what differs.
+/// Makes sure that all ranks are ready and make the same picture.
+/// \param rank     This rank.
+/// \param picture  The picture_text() of this rank.
+/// \throws std::runtime_error  if a rank has ended, or if the picture differs from that
+///         of rank 0.
 inline void agree(Rank& rank, const std::string& picture) {
     if (!all_come(rank, true))
         throw std::runtime_error("another rank has ended before the work began");
@@ -49,9 +50,10 @@ inline void agree(Rank& rank, const std::string& picture) {
 }
 
 /// Sends each rank a list, and receives one from each.
-/// \param lists     One for each rank, of values that can be copied byte by byte.
-/// \param received  Receives how many values came from each rank, if it is not null.
-/// \return What has come, in the order of the ranks that sent it.
+/// \param lists     One list for each rank, with values that can be copied byte by
+///                  byte.
+/// \param received  If not null, receives the number of values from each rank.
+/// \return All values received, in the order of the ranks that sent them.
 template <typename T>
 std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
                           std::vector<int>* received = nullptr) {
@@ -67,7 +69,8 @@ std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
     std::partial_sum(out.begin(), out.end(), out_at.begin() + 1);
     std::partial_sum(in.begin(), in.end(), in_at.begin() + 1);
     std::vector<T> all(static_cast<std::size_t>(in_at.back()));
-    MPI_Datatype value = MPI_DATATYPE_NULL; // MPI counts in int: values, not bytes
+    MPI_Datatype value = MPI_DATATYPE_NULL; // MPI counts in int, so values are counted,
+                                            // not bytes
     MPI_Type_contiguous(static_cast<int>(sizeof(T)), MPI_BYTE, &value);
     MPI_Type_commit(&value);
     MPI_Alltoallv(sent.data(), out.data(), out_at.data(), value, all.data(), in.data(),
@@ -77,18 +80,18 @@ std::vector<T> all_to_all(const std::vector<std::vector<T>>& lists,
     return all;
 }
 
-/// The main() of a program of several ranks: run_main() with a body that is given the
-/// command line and its rank, and calls agree() before the work. No rank waits for one
-/// that has failed, or that has only printed --help.
+/// The main() of a program of several ranks. It is run_main() with a body that receives
+/// the command line and the rank of the process, and calls agree() before the work. No
+/// rank waits for a rank that has failed or has only printed --help.
 template <typename Body>
 int run_ranks(int argc, char** argv, Body&& body) {
-    int threads = 0; // only the first one talks to the other ranks
+    int threads = 0; // only one thread uses MPI
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     Rank rank;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank.number);
     MPI_Comm_size(MPI_COMM_WORLD, &rank.count);
     const int code = run_main(argc, argv, [&](CommandLine& line) { body(line, rank); });
-    if (code != 0) MPI_Abort(MPI_COMM_WORLD, code); // it has said why
+    if (code != 0) MPI_Abort(MPI_COMM_WORLD, code); // the reason was printed
     if (!rank.met) (void)all_come(rank, false);
     MPI_Finalize();
     return code;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file examples/common/render_settings.hpp
-/// \brief Every setting of the program `render`, in one table: its option, the values
-/// that it takes, its line of --help and its name in the file beside the picture.
+/// \brief Every setting of the program `render`, in one table: its option, its allowed
+/// values, its line of --help and its name in the JSON file beside the picture.
 
 #include <cmath>
 #include <filesystem>
@@ -27,18 +27,18 @@
 
 namespace examples {
 
-// Groups of settings, as --help has them.
+// The groups of settings in --help.
 inline const std::vector<std::string> common_groups{"Picture", "Renderer"};
 inline const std::vector<std::string> photon_groups{
     "Photon mapping", "Photons", "Estimates from photons", "Gathering and cache",
-    "Rays that photons make needless"};
+    "Rays that photons make unnecessary"};
 inline const std::string path_group = "Path tracing";
 inline const std::string pass_group = "Passes: photon maps that converge";
 
 /// The values of --renderer. The last three show the first hit of each ray.
 enum class RendererName { photon, path, normals, albedo, depth };
 
-/// What a renderer shows of the first hit; nothing if it computes light.
+/// The quantity of the first hit that a renderer shows; nothing if it computes light.
 [[nodiscard]] constexpr std::optional<ljus::FirstHit>
 first_hit_of(RendererName renderer) noexcept {
     if (renderer == RendererName::normals) return ljus::FirstHit::normals;
@@ -47,43 +47,43 @@ first_hit_of(RendererName renderer) noexcept {
     return std::nullopt;
 }
 
-/// All settings, as the user gave them or as chosen for the user.
+/// All settings, as given by the user or chosen by the program.
 struct RenderRequest {
-    std::string scene{};                          ///< The scene file.
-    std::vector<std::string> reads{};             ///< It and all files that it names.
-    std::uint64_t scene_hash = 0;                 ///< Of their bytes as they were read.
-    std::string file{};                           ///< The file of the picture or slice.
+    std::string scene{};              ///< The scene file.
+    std::vector<std::string> reads{}; ///< The scene file and all files that it names.
+    std::uint64_t scene_hash = 0;     ///< Hash of the bytes of these files.
+    std::string file{};               ///< The file for the picture or slice.
     RendererName renderer = RendererName::photon; ///< What a pixel shows.
     bool in_double = false;                       ///< Whether to compute in double.
-    std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
+    std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.75;           ///< Deviation at which they get all of them.
-    double exposure = 0;                  ///< Exposure of PNG files, in stops.
+    int more_rays = 0;          ///< Largest number of further rays of a pixel.
+    double disagreement = 0.75; ///< Deviation at which a pixel gets all further rays.
+    double exposure = 0;        ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
-    /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
+    /// MIS weights of shadow rays and paths in a path tracer; none: no shadow rays.
     std::optional<ljus::MisHeuristic> path_lights = ljus::MisHeuristic::balance;
-    double photon_memory = 4;      ///< Limit for each photon pass, in GB.
-    PassOptions passes{};          ///< Progressive photon maps.
-    Promise promise{};             ///< Seconds or an error.
+    double photon_memory = 4;      ///< Memory limit of each photon pass, in GB.
+    PassOptions passes{};          ///< Passes of progressive photon mapping.
+    Promise promise{};             ///< The promised time or error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
-    std::string remarks{};         ///< Remarks on the photon passes, one a line.
-    std::string slice{};           ///< "3/16", or nothing.
-    SliceNumber part{};            ///< The same as a number.
-    std::string region{};          ///< "40,30,64,48", or nothing.
-    std::string layers{};          ///< "normal,albedo", or nothing.
-    std::string pixel{};           ///< "120,80", or nothing.
-    std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
-    bool plan = false;             ///< Print what would run.
-    bool hooks = false;            ///< Print what the scene's types provide.
-    bool quiet = false;            ///< No progress bar and no text.
+    std::string remarks{};         ///< Remarks on the photon passes, one per line.
+    std::string slice{};           ///< Text such as "3/16", or empty.
+    SliceNumber part{};            ///< Number of the slice.
+    std::string region{};          ///< Text such as "40,30,64,48", or empty.
+    std::string layers{};          ///< Text such as "normal,albedo", or empty.
+    std::string pixel{};           ///< Text such as "120,80", or empty.
+    std::string photons{};         ///< Kind of photons to draw as dots, or empty.
+    bool plan = false;             ///< Whether to print the passes that would run.
+    bool hooks = false;            ///< Whether to print the hooks of the scene's types.
+    bool quiet = false;            ///< Whether to print no progress bar and no text.
 };
 
-/// Adds every setting: its name, the member that holds it, a line of help, and its
-/// range. The words for an enum are the names of its enumerators.
+/// Adds every setting to the command line, with its name, the member that holds it, a
+/// line of help, and its range. The words for an enum are the names of its enumerators.
 /// \param line  The command line.
-/// \param r     Receives the user's values; must live as long as the line.
+/// \param r     Receives the values; must live as long as the command line.
 inline void add_settings(CommandLine& line, RenderRequest& r) {
     using namespace ljus;
     constexpr int million = 1'000'000;
@@ -97,20 +97,19 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     types.push_back(".slice");
     line.file_types(types);
     line.add("--slice K/N", r.slice,
-             "Render the K-th of N slices, which ljus-merge joins");
+             "Render the K-th of N slices; ljus-merge joins the slices");
 
     line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
     line.add("--region X,Y,W,H", r.region,
-             "Only these pixels, counted from the upper left corner");
-    line.add(
-        "--layers LIST", r.layers,
-        "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
-        "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
+             "Render only these pixels, counted from the upper left corner");
+    line.add("--layers LIST", r.layers,
+             "Save layers as well: normal, albedo, depth, position, object,\n"
+             "light-paths, or NAME=CLASS for a class of light paths, such as\n"
+             "glass=ES+.*L; in one .exr file, or in files NAME.*.pfm");
     line.add("--more-rays", r.more_rays,
-             "Most further rays of a pixel, where the rays around it differ", 0,
-             million);
+             "Most further rays of a pixel, if the rays around it differ", 0, million);
     line.add("--disagreement", r.disagreement,
-             "Relative standard deviation at which a pixel gets all of them", 1e-6,
+             "Relative standard deviation for which a pixel gets all of these", 1e-6,
              1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
     line.add("--precision", r.in_double, "Precision of scene, photons and light",
@@ -119,12 +118,12 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 
     line.group(common_groups[1]);
     line.add("--renderer", r.renderer,
-             "Photon mapping; path tracing as its reference; or what each ray\n"
-             "hits first: its normal n, as (n + 1)/2, its albedo, its distance");
+             "Photon mapping; path tracing as its reference; or the first hit of\n"
+             "each ray: its normal n as (n + 1)/2, its albedo, its distance");
     line.add("--preset", r.preset,
-             "Settings that go together: a first look; no visible errors in\n"
-             "the least time; or little bias, and noise unless there are many\n"
-             "rays. What is given by name replaces the preset's own");
+             "Settings for a first look; for no visible errors in the least\n"
+             "time; or for little bias, which needs many rays against noise.\n"
+             "Other options replace settings of the preset");
     line.add("--depth", photon.max_depth,
              "Largest number of surfaces on a path, mirrors included", 1, 1000);
     line.add("--roulette", photon.roulette_depth,
@@ -132,20 +131,20 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 
     line.group("Promise: all other settings are chosen");
     line.add("--seconds", r.promise.seconds,
-             "Seconds to spend: the picture with the least error", 0.01, 1e9);
+             "Seconds to spend, for the picture with the least error", 0.01, 1e9);
     line.add("--error", r.promise.error, "relMSE to reach, in the least time", 1e-9,
              1e9);
 
     line.group(photon_groups[0]);
     line.add("--direct", photon.direct,
-             "Light of lamps: by shadow rays; in closed form where there is\n"
-             "one; or by multiple importance sampling");
+             "Light straight from lamps: by shadow rays; in closed form if there\n"
+             "is one; or by multiple importance sampling");
     line.add("--shadow-rays", photon.shadow_rays, "Shadow rays to each light", 1,
              10'000);
     line.add("--indirect", photon.indirect,
-             "Light of other surfaces: by rays; by the general map where one\n"
-             "ray ends, or where the camera looks; by irradiance that was\n"
-             "precomputed where one ray ends, or many rays at few points");
+             "Light from other surfaces: by rays; by the general map at the end\n"
+             "of one ray (map) or at the surface itself (photons); by irradiance\n"
+             "at the end of one ray (gather) or cached at few points (cache)");
     line.add("--split-glass", photon.split_glass,
              "Follow both reflection and refraction at glass");
 
@@ -155,14 +154,14 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--general-photons", photon.general.photons,
              "Photons of the general map, if one is needed", 0, billion);
     line.add("--caustic-budget", photon.caustic_budget,
-             "How mirrors, glass and lights share them: as lights see them;\n"
-             "equally; or for the least error of the flux, of each caustic,\n"
-             "or of what the eye sees");
+             "How mirrors, glass and lights share caustic photons: as lights see\n"
+             "the objects; equally; or for the least error of the flux, of each\n"
+             "caustic, or of the picture");
     line.add("--photon-numbers", photon.caustics.numbers, "Random, or spread evenly");
     line.add("--photon-bounces", photon.caustics.max_bounces,
              "Largest number of surfaces on a photon's path", 1, million);
-    line.add("--photon-memory", r.photon_memory, "GB that a photon pass may take", 1e-6,
-             1e6);
+    line.add("--photon-memory", r.photon_memory,
+             "Memory that a photon pass may take, in GB", 1e-6, 1e6);
 
     line.group(photon_groups[2]);
     const auto add_estimate = [&](const std::string& map,
@@ -182,11 +181,11 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
              "Radius of each photon in fog; 0: from the photons around it", 1e-15, 1e6,
              true);
     line.add("--fog-nearest", photon.fog_estimate.nearest,
-             "Photons around it, which set its radius", 1, 511);
+             "Number of photons around a photon in fog that set its radius", 1, 511);
 
     line.group(photon_groups[3]);
     line.add("--irradiance-every", photon.irradiance.every,
-             "Photons for each point with precomputed irradiance", 2, million);
+             "One point with precomputed irradiance for so many photons", 2, million);
     line.add("--irradiance-nearest", photon.irradiance.nearest,
              "Photons in the estimate at such a point", 2, max_nearest);
     line.add("--irradiance-radius", photon.irradiance.radius,
@@ -196,7 +195,7 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--gather-rays", photon.gather.rays, "Rays from each point of the cache",
              1, million);
     line.add("--gather-tile", photon.gather.tile,
-             "Pixels on a side that share a point of the cache", 1, 1000);
+             "Side of a square of pixels that share a point of the cache", 1, 1000);
     line.add("--gather-nearest", photon.gather.nearest,
              "Points of the cache that a pixel interpolates", 2, max_cache_nearest);
     line.add("--gather-reach", photon.gather.reach,
@@ -213,9 +212,10 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--skip-radius", photon.skip.radius,
              "Distance that counts as near; 0: from the photons", 0, 1e6);
     line.add("--skip-tolerance", photon.skip.tolerance,
-             "Hidden fraction of a light that is ignored (enough)", 1e-6, 0.999);
-    line.add("--skip-risk", photon.skip.risk, "Risk that more is hidden (enough)", 1e-9,
+             "With --skip enough: hidden fraction of a light that is ignored", 1e-6,
              0.999);
+    line.add("--skip-risk", photon.skip.risk,
+             "With --skip enough: risk that more is hidden", 1e-9, 0.999);
 
     line.group(path_group);
     line.add("--path-lights", r.path_lights,
@@ -234,22 +234,24 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     add_pass_options(line, r.passes);
 
     line.group("Instead of the picture");
-    line.add("--plan", r.plan, "Print what would run and why");
+    line.add("--plan", r.plan, "Print which passes would run, and why");
     line.add("--hooks", r.hooks,
-             "Print what the scene's types provide, and what they do not");
+             "Print which hooks the types of the scene have, and which they lack");
     line.add("--explain X,Y", r.pixel, "Print the paths of a pixel");
     line.add("--show-photons", r.photons, "Draw photons as dots",
              {"direct", "indirect", "shadow", "caustic", "all"});
 }
 
-/// Chooses the settings that the user did not give: from the scene, from the preset,
-/// and for passes.
+/// Chooses the settings that the user did not give, by the scene, by the preset, and
+/// for pictures in passes.
 /// \param line    The command line, parsed.
-/// \param r       What the user asks for.
-/// \param width   Of the scene's picture, in pixels.
-/// \param height  Of the scene's picture, in pixels.
-/// \param fog     Whether the scene has fog, in which no irradiance is cached.
-/// \throws std::invalid_argument  for a picture that is too large.
+/// \param r       The request of the user.
+/// \param width   Width in the scene file, in pixels.
+/// \param height  Height in the scene file, in pixels.
+/// \param fog     Whether the scene has fog, which the irradiance cache does not
+///                support.
+/// \throws std::invalid_argument  if the picture is too large, or options do not fit
+///         together.
 inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int height,
                             bool fog = false) {
     Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
@@ -259,7 +261,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
         options = line.fill({width, height, rays.first});
         r.more_rays = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        // Keep the default shadow rays, not the preset's.
+        // The default number of shadow rays is kept, not that of the preset.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
         if (fog && r.photon.indirect == ljus::IndirectLight::cache)
             r.photon.indirect = ljus::IndirectLight::photons;
@@ -297,7 +299,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
 
 /// The final settings of a picture, for the file beside it.
 /// \param line  The command line, parsed.
-/// \param r     What the user asked for, and what was chosen.
+/// \param r     The request of the user, with all settings chosen.
 [[nodiscard]] inline nlohmann::ordered_json to_json(const CommandLine& line,
                                                     const RenderRequest& r) {
     std::vector<std::string> groups = common_groups;
@@ -322,9 +324,10 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     return json;
 }
 
-/// What the passes of a picture are of; passes that were made by the same text go on.
+/// The text that identifies the picture of some passes. A checkpoint with the same text
+/// can be resumed.
 /// \param line  The command line, parsed.
-/// \param r     What the user asked for, with all settings, and the scene's hash.
+/// \param r     The request of the user, with all settings and the hash of the scene.
 [[nodiscard]] inline std::string text_of_passes(const CommandLine& line,
                                                 const RenderRequest& r) {
     std::vector<std::pair<std::string, std::string>> settings;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/rendered.hpp
-/// \brief A picture of a program's options, with a progress bar while it is made.
+/// \brief Renders a picture by the options of a program, with a progress bar.
 
 #include <string>
 
@@ -11,7 +11,7 @@
 
 namespace examples {
 
-/// Size, rays, seed and threads as the options have them.
+/// The settings of a picture, by the options: size, rays, seed and threads.
 [[nodiscard]] inline ljus::RenderSettings picture_settings(const Options& options) {
     return {.width = options.width,
             .height = options.height,
@@ -21,12 +21,13 @@ namespace examples {
 }
 
 /// Renders a picture with a progress bar; Ctrl-C ends the program.
-/// \param name      Of the bar.
-/// \param renderer  As render() has it.
-/// \param camera    As render() has it.
-/// \param picture   As render() has it; its bar, and threads if it has none, are added.
-/// \param options   Threads, and whether there is a bar.
-/// \return The picture and its counts.
+/// \param name      The name of the bar.
+/// \param renderer  As for render().
+/// \param camera    As for render().
+/// \param picture   As for render(). The progress bar is added and, if `threads` is 0,
+///                  the threads of the options.
+/// \param options   Threads, and whether to draw a bar.
+/// \return The result of render().
 template <typename Renderer, typename AnyCamera>
 [[nodiscard]] auto rendered(const std::string& name, const Renderer& renderer,
                             const AnyCamera& camera, ljus::RenderSettings picture,
@@ -39,7 +40,8 @@ template <typename Renderer, typename AnyCamera>
     return result;
 }
 
-/// The same, with the size, rays, seed and threads of the options.
+/// Renders a picture with a progress bar, with the size, rays, seed and threads of the
+/// options.
 template <typename Renderer, typename AnyCamera>
 [[nodiscard]] auto rendered(const std::string& name, const Renderer& renderer,
                             const AnyCamera& camera, const Options& options) {

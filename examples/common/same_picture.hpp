@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file same_picture.hpp
-/// \brief Do two programs make the same picture? Its settings as a text, and the first
-/// one that differs.
+/// \brief Finds out whether two programs make the same picture, by comparing their
+/// settings as text.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,12 +18,13 @@
 
 namespace examples {
 
-/// What a picture is made by: its settings, and of what. Slices, checkpoints and ranks
-/// carry it; two that differ are not of one picture.
+/// A text that identifies a picture: all its settings and the hash of its scene.
+/// Slices, checkpoints and ranks carry this text. If two texts differ, the pictures
+/// differ.
 /// \param settings    Names and values, as CommandLine::values() returns them.
-/// \param scene_hash  Of the files of the scene as they were read: FilesRead::hash();
-///                    0: the scene is the program's own.
-/// \return One line "name: value" for each.
+/// \param scene_hash  FilesRead::hash() of the files of the scene; 0 if the program
+///                    makes the scene itself.
+/// \return One line "name: value" for each setting.
 [[nodiscard]] inline std::string
 picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
              std::uint64_t scene_hash = 0) {
@@ -35,10 +36,10 @@ picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
     return text;
 }
 
-/// Why two pictures are not the same.
-/// \param is     Lines "name: value" of one.
-/// \param right  Those of the one that it should be.
-/// \return "its seed is 2, and not 1", for the first line that differs; or nothing.
+/// The first difference between two pictures, in words.
+/// \param is     The picture_text() of a picture.
+/// \param right  The text that it should have.
+/// \return A clause such as "its seed is 2, and not 1"; empty if the texts are equal.
 [[nodiscard]] inline std::string difference(std::string_view is,
                                             std::string_view right) {
     const auto take_line = [](std::string_view& text) {
@@ -62,13 +63,13 @@ picture_text(const std::vector<std::pair<std::string, std::string>>& settings,
                 return "its " + ljus::shown(std::string(line.substr(0, end))) + " is " +
                        a + ", and not " + b;
         }
-    return is == right ? "" : "its settings are others";
+    return is == right ? "" : "its settings differ";
 }
 
-/// Refuses to go on with the checkpoint of another picture.
-/// \param checkpoint  Its name.
-/// \param is          The picture_text() in it.
-/// \param right       That of the picture that is to be made.
+/// Refuses to resume the checkpoint of another picture.
+/// \param checkpoint  The path of the checkpoint.
+/// \param is          The picture_text() in the checkpoint.
+/// \param right       The picture_text() of the picture that is to be made.
 /// \throws std::invalid_argument  with the first setting that differs.
 inline void require_same_picture(const std::string& checkpoint, const std::string& is,
                                  const std::string& right) {

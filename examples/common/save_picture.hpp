@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file save_picture.hpp
-/// \brief Saves a picture as the kind of file that its name says.
+/// \brief Saves a picture in the format that the extension of its name gives.
 
 #include <filesystem>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace examples {
 
-/// The end of a file's name in small letters, as ".pfm".
+/// The extension of a file in small letters, such as ".pfm".
 [[nodiscard]] inline std::string type_of(const std::string& path) {
     std::string type = std::filesystem::path(path).extension().string();
     for (char& c : type)
@@ -21,15 +21,15 @@ namespace examples {
     return type;
 }
 
-/// Whether a file's name says that it is an EXR file.
+/// Whether the extension of a file is that of EXR.
 [[nodiscard]] inline bool is_exr(const std::string& path) {
     return type_of(path) == ".exr";
 }
 
 /// Saves a picture as PFM, HDR or EXR, which hold radiance, or else as PNG.
-/// \param image     Linear colours.
-/// \param path      The file; its ending says what it becomes.
-/// \param exposure  Of a PNG file, in stops.
+/// \param image     The picture, in linear colours.
+/// \param path      The file, whose extension gives the format.
+/// \param exposure  Exposure of a PNG file, in stops.
 template <std::floating_point T>
 void save_picture(const ljus::ImageT<T>& image, const std::string& path,
                   double exposure) {

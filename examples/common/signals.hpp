@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file examples/common/signals.hpp
-/// \brief Ctrl-C asks a program to stop; it does so between two blocks of work, or else
-/// two seconds later, wherever it is: files are whole or not there at any moment. A
-/// pipe that nobody reads any more ends no work.
+/// \brief Lets Ctrl-C stop a program between two blocks of work, or at the latest after
+/// two seconds. Files are never left incomplete. A broken pipe does not end the
+/// program.
 
 #include <array>
 #include <atomic>
@@ -17,16 +17,16 @@
 
 namespace examples {
 
-/// Thrown by a program that has been asked to stop, after it has put things in order.
+/// Thrown by a program that stops because it was asked to.
 struct Interrupted {};
 
-// Read by all threads, written by the handler: an atomic that needs no lock may be
-// both.
+// The signal that asked for a stop, or 0. The handler writes it, and all threads read
+// it, which is allowed for an atomic without a lock.
 inline std::atomic<int> asked_to_stop{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// What is said then. The handler may come at any moment: the text that it reads is not
-// the one that is being written.
+// The sentence that is printed when the program stops. There are two buffers, because
+// the handler may run at any moment: it reads the one that is not being written.
 inline std::array<std::array<char, 1000>, 2> last_words{};
 inline std::atomic<std::size_t> last_words_now{0};
 
@@ -44,34 +44,34 @@ extern "C" inline void stop_now(int) {
 
 extern "C" inline void ask_to_stop(int signal) {
     asked_to_stop = signal;
-    std::signal(signal, SIG_DFL); // the second time it ends the program at once
+    std::signal(signal, SIG_DFL); // a second Ctrl-C ends at once
 #ifdef SIGALRM
     std::signal(SIGALRM, stop_now);
     ::alarm(2);
 #endif
 }
 
-// The signal, once a text has been written into a pipe that nobody reads.
+// The signal SIGPIPE if the program has written into a broken pipe, otherwise 0.
 inline std::atomic<int> broken_pipe{0};
 extern "C" inline void note_broken_pipe(int signal) {
     broken_pipe = signal;
 }
 
-// Handles a signal, unless whoever has started the program wants it to be ignored, as
-// nohup does.
+// Installs a handler, unless the signal is ignored, as under nohup.
 inline void handle(int signal, void (*handler)(int)) {
     if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-// No longer: the program has ended by itself.
+// Cancels the alarm when the program has ended by itself.
 inline void let_be() {
 #ifdef SIGALRM
     ::alarm(0);
 #endif
 }
 
-/// What a program says when it is stopped: what is saved, and how to go on.
-/// \param sentence  Without a full stop.
+/// Sets the sentence that a program prints when it is stopped: what is saved, and how
+/// to resume.
+/// \param sentence  The sentence, without a full stop.
 inline void when_stopped_say(const std::string& sentence) {
     const std::size_t next = 1 - last_words_now;
     auto& text = last_words[next];
@@ -80,9 +80,8 @@ inline void when_stopped_say(const std::string& sentence) {
     last_words_now = next;
 }
 
-/// Lets Ctrl-C, SIGTERM and the end of a terminal ask for a stop, and makes what can go
-/// wrong in writing (a limit of size, a broken pipe) an error instead of the end of the
-/// program.
+/// Installs handlers: Ctrl-C, SIGTERM and the closing of the terminal ask for a stop. A
+/// file-size limit and a broken pipe become errors and do not end the program.
 inline void handle_signals() {
     let_be();
     asked_to_stop = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file examples/common/terminal.hpp
-/// \brief A progress bar with the time that is left, on stderr if that is a terminal.
+/// \brief A progress bar with the remaining time, on stderr if that is a terminal.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@
 
 namespace examples {
 
-/// Whether a stream ends at a terminal.
+/// Whether a stream is a terminal.
 [[nodiscard]] inline bool is_terminal(std::FILE* stream) {
 #ifdef _WIN32
     return ::_isatty(::_fileno(stream)) != 0;
@@ -29,10 +29,10 @@ namespace examples {
 #endif
 }
 
-/// A duration as people read it.
-/// \param seconds  At least 0.
-/// \return "0:07", "12:34", "3:07:00"; "?" for NaN, or for what is longer than 99
-/// hours.
+/// A duration as text.
+/// \param seconds  The duration, at least 0.
+/// \return A text such as "0:07", "12:34" or "3:07:00"; "?" for NaN, or from 100 hours
+///         on.
 [[nodiscard]] inline std::string duration_text(double seconds) {
     if (!(seconds >= 0.0 && seconds < 360000.0)) return "?";
     const long whole = std::lround(seconds);
@@ -47,11 +47,11 @@ namespace examples {
     return text;
 }
 
-/// The text of a bar, without the carriage return in front.
-/// \param name     What is being done.
-/// \param part     How much of it is done, in [0, 1].
-/// \param seconds  How long that took.
-/// \return "render  [#####.....]  50 %  0:12 left".
+/// The text of a progress bar.
+/// \param name     The name of the work.
+/// \param part     The part that is done, in [0, 1].
+/// \param seconds  The time that this part took.
+/// \return A text such as "render [#####.....] 50 % 0:12 left".
 [[nodiscard]] inline std::string bar_text(const std::string& name, double part,
                                           double seconds) {
     const int width = 30;
@@ -61,7 +61,7 @@ namespace examples {
     const std::string percent = std::to_string(static_cast<int>(100.0 * part));
     text +=
         std::string(4 - std::min<std::size_t>(percent.size(), 4), ' ') + percent + " %";
-    // The first tenth of a second says nothing about the rest.
+    // From less than a tenth of a second the remaining time cannot be predicted.
     if (seconds > 0.1 && part > 0.0)
         text += "  " + duration_text(seconds * (1.0 - part) / part) + " left";
     return text;
@@ -72,22 +72,22 @@ namespace examples {
 ///     ProgressBar bar("render", options.quiet);
 ///     render(scene, camera, {.progress = bar});
 ///
-/// It is the callable that the loops of Ljus report to; it draws ten times a second,
-/// and nothing at all if told to be quiet or if stderr is not a terminal. It wipes the
-/// line when it goes.
+/// The loops of Ljus call the bar to report progress. The bar is drawn at most ten
+/// times a second, and not at all if it is quiet or if stderr is not a terminal. The
+/// destructor erases the bar.
 class ProgressBar {
 public:
-    /// \param name   What is being done, in a word or two.
-    /// \param quiet  Draw nothing; Ctrl-C still stops the loop.
+    /// \param name   The name of the work, in a word or two.
+    /// \param quiet  Whether to draw nothing. Ctrl-C still stops the loop.
     explicit ProgressBar(std::string name, bool quiet = false)
         : name_(std::move(name)), draws_(!quiet && is_terminal(stderr)) {}
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     ~ProgressBar() { wipe(); }
 
-    /// \param done   Blocks done.
-    /// \param total  All blocks.
-    /// \return Whether to go on: false after Ctrl-C.
+    /// \param done   The number of blocks that are done.
+    /// \param total  The number of all blocks.
+    /// \return Whether to continue: false after Ctrl-C.
     bool operator()(long long done, long long total) {
         if (draws_ && total > 0)
             draw(static_cast<double>(done) / static_cast<double>(total));
@@ -101,7 +101,7 @@ private:
         drawn_at_ = now;
         std::string text = bar_text(name_, part, now);
         const std::size_t length = text.size();
-        // Blanks over what a longer text has left behind.
+        // Blanks erase the end of a longer earlier text.
         if (length < drawn_length_) text.append(drawn_length_ - length, ' ');
         drawn_length_ = length;
         std::fprintf(stderr, "\r%s", text.c_str());

@@ -1,4 +1,4 @@
-// A scene of one's own, rendered with photon maps into picture.png.
+// Your own scene, rendered with photon maps into picture.png.
 #if __has_include("ljus.hpp") // the single header, if it was copied here
 #include "ljus.hpp"
 #else
@@ -10,7 +10,7 @@
 
 using namespace ljus;
 
-// The types that the scene is made of: add yours to the lists.
+// The types in the scene: add yours to the lists.
 using MyScene = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>>;
 
 MyScene make_my_scene() {

@@ -12,12 +12,12 @@ namespace flatland {
 
 using ljus::Kernel;
 
-// Section 3.2.6: a disc of the plane cuts an interval of length 2r out of a
+// Section 3.2.6 in the plane: a disc of radius r cuts an interval of length 2r out of a
 // wall.
 
 /// The weight of a photon, relative to 1/(2r).
-/// \param kernel  The kernel, as in ljus::Kernel, but with a mean of 1 over the
-///                *interval*, which changes the constant factor.
+/// \param kernel  A kernel of ljus::Kernel. Its constant factor is another one in the
+///                plane, so that the mean over the *interval* is 1.
 /// \param x       Squared distance over squared radius, in [0, 1].
 /// \return At least 0.
 /// \report{Section 3.2.6}
@@ -28,7 +28,7 @@ using ljus::Kernel;
     case Kernel::cone:
         return 2 * (1 - std::sqrt(x));
     case Kernel::gaussian:
-        // sqrt(8/pi) / erf(sqrt(2)): one over its mean over the interval.
+        // The factor sqrt(8/pi) / erf(sqrt(2)) is 1 over the mean of exp(-2x).
         return 1.6718382009405384 * std::exp(-2 * x);
     case Kernel::epanechnikov:
         return 1.5 * (1 - x);
@@ -40,14 +40,14 @@ using ljus::Kernel;
 
 /// Settings of an estimate.
 struct DensityEstimateSettings {
-    double radius = 0.1;                  ///< In metres.
-    std::size_t nearest = 0;              ///< k within the radius; 0: all within it.
-    Kernel kernel = Kernel::epanechnikov; ///< The weight by distance.
+    double radius = 0.1;     ///< Radius of the disc, in metres.
+    std::size_t nearest = 0; ///< Use the k nearest photons within the radius; 0: all.
+    Kernel kernel = Kernel::epanechnikov; ///< Weight of a photon by its distance.
 };
 
-/// Refuses settings that give no estimate.
+/// Checks the settings.
 /// \param gather  The settings.
-/// \throws std::invalid_argument  with name and value.
+/// \throws std::invalid_argument  if a number is out of range, with its name and value.
 inline void check(const DensityEstimateSettings& gather) {
     require_positive("gather.radius", gather.radius);
     require(gather.nearest != 1, "gather.nearest",
@@ -55,15 +55,15 @@ inline void check(const DensityEstimateSettings& gather) {
             "0 for all within the radius, or at least 2 (one photon sets the radius)");
 }
 
-/// An estimate, and its interval.
+/// An estimate of the irradiance, with its disc.
 struct Estimate {
-    double irradiance = 0;    ///< W/m.
+    double irradiance = 0;    ///< Irradiance, W/m.
     double radius = 0;        ///< Radius of the disc, in metres.
-    std::size_t gathered = 0; ///< Photons within it that were summed.
+    std::size_t gathered = 0; ///< Number of photons in the sum.
 };
 
-/// Whether a photon counts at a point: it lies on the same wall, or on one that is
-/// turned by less than 60 degrees, and came from the side of the normal.
+/// Whether a photon counts at a point. It does if its wall is turned by less than 60
+/// degrees from that of the point, and if it came from the side of the normal.
 /// \param photon  The photon.
 /// \param point   A point of a surface.
 [[nodiscard]] inline bool counts_at(const Photon& photon,
@@ -72,17 +72,20 @@ struct Estimate {
            glm::dot(photon.direction, point.normal) < 0;
 }
 
-/// The irradiance at a point, estimated from the photons around it:
+/// The irradiance at a point x, estimated from the photons around it,
 ///
-/// \f[ E(x) = \frac{1}{2r} \sum_i w_i\, \Delta\Phi_i \f]
+/// \f[ E(x) = \frac{1}{2r} \sum_i w_i\, \Delta\Phi_i, \f]
 ///
-/// With the k nearest, the k-th sets the radius and is left out of the sum. Fewer than
-/// k within the radius are summed over the whole disc.
+/// where r is the radius of the disc, and photon i has the flux \f$ \Delta\Phi_i \f$
+/// and the weight \f$ w_i \f$ of the kernel.
+///
+/// With the k nearest photons, the k-th sets the radius and is left out of the sum. If
+/// the disc has fewer than k photons, all of them are summed and the radius is kept.
 /// \param map     The photons.
 /// \param point   A point of a surface; the normal points to the side of the estimate.
 /// \param gather  Radius, k, kernel; see check().
-/// \return The estimate; 0 W/m if the k nearest all lie at the point itself.
-/// \cost A walk over all photons.
+/// \return The estimate; 0 W/m if the k nearest photons all lie at the point itself.
+/// \cost A loop over all photons.
 /// \report{Section 3.2.6}
 // [photons within]
 [[nodiscard]] inline Estimate
@@ -109,7 +112,8 @@ estimate_irradiance(const PhotonMap& map, const SurfacePoint& point,
             found.begin(), kth, found.end(),
             [](const Found& a, const Found& b) { return a.distance2 < b.distance2; });
         radius = std::sqrt(kth->distance2);
-        found.erase(kth, found.end()); // it lies on the border
+        found.erase(kth, found.end()); // without the k-th photon, which lies on the
+                                       // border
     }
     Estimate result{.radius = radius, .gathered = found.size()};
     if (!(radius > 0)) return result;

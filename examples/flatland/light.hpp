@@ -1,16 +1,19 @@
 #pragma once
 
 /// \file flatland/light.hpp
-/// \brief Lamps of the plane: their flux, shadow rays to them, photons from them.
+/// \brief Lamps of the plane: their flux, shadow rays to them, and photons that they
+/// emit.
 
 #include "flatland/path.hpp"
 
 namespace flatland {
 
-// Sections 3.2.2 and 3.2.3: light falls off as 1/r, as the angle of a lamp does.
+// Sections 3.2.2 and 3.2.3 in the plane: light falls off as 1/r, like the angle that a
+// lamp covers.
 
-/// The flux of an object, in W: the radiance, times the integral of the cosine, 2,
-/// times the length. (In space pi times the area.)
+/// The flux of an object, in W: the radiance times 2, which is the integral of the
+/// cosine over the half circle, times the length. In space it is the radiance times pi
+/// times the area.
 /// \param object  The object.
 [[nodiscard]] inline double flux(const Object& object) {
     return 2 * object.emission * length(object.shape);
@@ -24,10 +27,10 @@ namespace flatland {
     return sum;
 }
 
-/// The radiance of a circle that emits a flux.
+/// The radiance of a circular lamp with a given flux.
 /// \param circle  The lamp.
-/// \param flux    In W.
-/// \return W/(m rad).
+/// \param flux    The flux, W.
+/// \return The radiance, W/(m rad).
 [[nodiscard]] inline double radiance_of(const Circle& circle, double flux) noexcept {
     return flux / (2 * length(circle));
 }
@@ -53,8 +56,9 @@ namespace flatland {
 
 /// A point of a lamp, and the probability of that lamp.
 struct LampPoint {
-    SurfacePoint point{};   ///< Uniform over the lamp's length.
-    double probability = 0; ///< Of the lamp: its fraction of all flux; 0: no lamps.
+    SurfacePoint point{};   ///< A point, uniform over the length of the lamp.
+    double probability = 0; ///< Probability of the lamp: its fraction of all flux; 0
+                            ///< without lamps.
     const Object* lamp = nullptr; ///< The lamp in the scene.
 };
 
@@ -69,7 +73,7 @@ struct LampPoint {
     for (const Object& object : scene.objects) {
         const double own = flux(object);
         if (!(own > 0)) continue;
-        chosen.lamp = &object; // the last lamp takes what rounding leaves
+        chosen.lamp = &object; // rounding may leave a rest for the last lamp
         chosen.probability = own / all;
         left -= own;
         if (left < 0) break;
@@ -80,11 +84,12 @@ struct LampPoint {
     return chosen;
 }
 
-/// The density of a point of a lamp for an observer, if it is uniform over the length.
-/// \param from    The observer.
-/// \param point   The point.
-/// \param length  Length of the lamp.
-/// \return distance / (|cos| length), per radian. (In space: distance^2.)
+/// The density per angle with which an observer sees a point of a lamp that is uniform
+/// over the length.
+/// \param from    The position of the observer.
+/// \param point   The point of the lamp.
+/// \param length  The length of the lamp.
+/// \return distance / (|cos| length), per radian. In space the distance is squared.
 /// \report{Section 3.2.3}
 // [pdf from length]
 [[nodiscard]] inline double pdf_from_length(const Vec2& from, const SurfacePoint& point,
@@ -96,7 +101,7 @@ struct LampPoint {
 }
 // [pdf from length]
 
-/// The light of a random point of a lamp that a vertex reflects along its `wo`.
+/// The radiance that a vertex reflects along its `wo` from a random point of a lamp.
 /// \param scene   The scene.
 /// \param vertex  A point of a surface.
 /// \param u       Chooses the point of the lamp.
@@ -108,7 +113,7 @@ struct LampPoint {
     if (chosen.lamp == nullptr) return 0;
     const Vec2& from = vertex.point.position;
     const Vec2 way = chosen.point.position - from;
-    if (!(glm::dot(way, chosen.point.normal) < 0)) return 0; // its back
+    if (!(glm::dot(way, chosen.point.normal) < 0)) return 0; // the back of the lamp
     const Vec2 wi = to_local(vertex.point.normal, glm::normalize(way));
     const double f = evaluate(vertex.object.material, vertex.wo, wi);
     if (f == 0 || occluded(scene, from, chosen.point.position)) return 0;
@@ -117,11 +122,12 @@ struct LampPoint {
     return f * std::abs(wi.y) * chosen.lamp->emission / pdf;
 }
 
-/// Emits a photon: the lamp is chosen by its flux, the point uniformly over the
-/// length, the direction by the cosine; so all photons carry the same flux.
-/// \param scene   The scene; something in it emits.
-/// \param flux    Flux of the photon, in W: that of the scene over the number of
-///                photons.
+/// Emits a photon. The lamp is chosen in proportion to its flux, the point uniformly
+/// over the length, and the direction in proportion to the cosine. All photons
+/// therefore carry the same flux.
+/// \param scene   A scene with a lamp.
+/// \param flux    The flux of the photon, W: the flux of the scene divided by the
+///                number of photons.
 /// \param stream  Three numbers are drawn.
 /// \return A path without a vertex.
 /// \report{Section 3.2.2}

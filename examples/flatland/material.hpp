@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file flatland/material.hpp
-/// \brief Materials of the plane: Lambert, a mirror, glass.
+/// \brief Materials of the plane: Lambert's surface, a mirror, glass.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace flatland {
 
 using ljus::Transport, ljus::Vec3T;
 
-// Section 3.2.1 with a dimension less: angles in place of solid angles.
+// Section 3.2.1 in two dimensions, with angles in place of solid angles.
 //
 // The functions are those of a material in space (ljus/materials/material.hpp), with
 // the same names. The frame of a surface has x along the surface and y along its
@@ -27,14 +27,14 @@ using ljus::Transport, ljus::Vec3T;
 
 using Vec2 = ljus::Vec2T<double>; ///< A point or a direction of the plane.
 
-/// A diffuse surface: the same radiance in all directions.
+/// A diffuse surface, which reflects the same radiance in all directions.
 struct Lambertian {
     double albedo = 0.5; ///< Reflected fraction of the flux, in [0, 1].
 };
 
 /// A mirror.
 struct Mirror {
-    double reflectance = 1; ///< In [0, 1].
+    double reflectance = 1; ///< Reflected fraction of the flux, in [0, 1].
 };
 
 /// The boundary of clear glass; the normal points outwards.
@@ -49,13 +49,14 @@ using Material = std::variant<Lambertian, Mirror, Glass>;
 struct BsdfSample {
     Vec2 wi{0, 1};         ///< Direction towards the light; unit vector.
     double weight = 0;     ///< f |cos|/pdf, the factor of the throughput.
-    double pdf = 0;        ///< Per radian; 0: a delta.
-    bool specular = false; ///< Whether `wi` is a delta's direction.
-    double eta_scale = 1;  ///< Factor n_i/n_t in the weight, which is not a loss.
+    double pdf = 0;        ///< Density of `wi`, per radian; 0 for a delta.
+    bool specular = false; ///< Whether `wi` is the direction of a delta.
+    double eta_scale = 1;  ///< The factor n_i/n_t that is in the weight; it is no loss
+                           ///< of light.
 };
 
-/// A direction with the density cos(theta)/2: its foot on the surface is uniform in
-/// [-1, 1], the shadow of the half circle. (In space: uniform on a disc.)
+/// A direction with the density cos(theta)/2 per radian. Its projection onto the
+/// surface is uniform in [-1, 1]. In space it is uniform on a disc.
 /// \param u  In [0, 1).
 /// \return Unit vector with y >= 0.
 /// \report{Section 3.2.4}
@@ -72,12 +73,13 @@ struct BsdfSample {
     return d.y > 0 ? d.y / 2 : 0;
 }
 
-/// The BRDF: radiance that leaves per irradiance. Deltas are left out.
+/// The BRDF: reflected radiance divided by irradiance, without deltas.
 /// \param material  The material.
 /// \param wo        Outgoing direction.
 /// \param wi        Direction towards the light.
-/// \return albedo/2 per radian on one side of a Lambertian surface: the integral of the
-///         cosine over the half circle is 2 (in space it is pi).
+/// \return albedo/2 per radian, if both directions are on one side of a Lambertian
+///         surface; otherwise 0. The 2 is the integral of the cosine over the half
+///         circle, which is pi in space.
 /// \report{Section 3.2.1}
 // [evaluate]
 [[nodiscard]] inline double evaluate(const Material& material, const Vec2& wo,
@@ -111,14 +113,15 @@ sample(const Mirror& mirror, const Vec2& wo, double, Transport) noexcept {
     return BsdfSample{.wi{-wo.x, wo.y}, .weight = mirror.reflectance, .specular = true};
 }
 
-/// Samples reflection or refraction in proportion to the light of each. Snell's law and
-/// Fresnel's equations are those of space: its rays stay in the plane of incidence.
+/// Samples reflection or refraction, each with the probability of its share of the
+/// light. Snell's law and Fresnel's equations are those of space, where rays stay in
+/// the plane of incidence.
 /// \param glass      The glass.
-/// \param wo         Outgoing direction; y < 0 is inside.
+/// \param wo         Outgoing direction; inside the glass if y < 0.
 /// \param u          In [0, 1); chooses the branch.
-/// \param transport  Radiance that comes from index n_t scales by n_i/n_t: Snell's law
-///                   keeps n cos(theta) d theta (in space the square of it). Flux does
-///                   not.
+/// \param transport  The transported quantity. Radiance from the side with index n_t is
+///                   multiplied by n_i/n_t, because Snell's law conserves n cos(theta)
+///                   d theta; in space n is squared. Flux is not scaled.
 /// \return Always a sample.
 /// \report{Section 3.2.5}
 // [sample glass]

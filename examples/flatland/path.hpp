@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file flatland/path.hpp
-/// \brief The vertex of a path in the plane, and the two calls by which paths travel.
+/// \brief The vertex of a path in the plane, and the two functions that move a path.
 
 #include "flatland/scene.hpp"
 #include "ljus/math/random.hpp"
@@ -10,18 +10,18 @@ namespace flatland {
 
 using ljus::RandomStream, ljus::next_1d, ljus::next_2d;
 
-// Section 3.2: next_vertex() and continue_path(), as in space.
+// Section 3.2 in the plane: next_vertex() and continue_path() are as in space.
 
-/// A vertex of a path: ljus::VertexT with a dimension less. A frame of the plane is
-/// given by its normal alone.
+/// A vertex of a path: ljus::VertexT in two dimensions. A frame of the plane is given
+/// by its normal alone.
 /// \report{Section 3.2}
 // [vertex]
 struct Vertex {
     SurfacePoint point{}; ///< Position and geometric normal.
-    Vec2 wo{0, 1};        ///< To the previous vertex: unit vector in the frame.
-    std::size_t id = 0;   ///< Index of the object.
-    Object object{};      ///< Its material and emission.
-    double distance = 0;  ///< From the previous vertex.
+    Vec2 wo{0, 1};      ///< Direction to the previous vertex: unit vector in the frame.
+    std::size_t id = 0; ///< Index of the object.
+    Object object{};    ///< The object, with material and emission.
+    double distance = 0; ///< Distance from the previous vertex.
 
     /// Whether the surface emits towards `wo`: emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
@@ -33,29 +33,29 @@ struct Vertex {
 /// The state of a path, from the eye or from a lamp.
 /// \report{Section 3.2.4}
 struct PathState {
-    Ray ray{};                 ///< Its next ray.
-    double throughput = 1;     ///< Factor of the radiance that it finds; for a
-                               ///< photon its flux, in W.
-    bool specular = false;     ///< Whether its last scattering was by a delta.
-    bool met_diffuse = false;  ///< Whether it was ever scattered by anything else.
-    bool met_specular = false; ///< Whether it was ever scattered by a delta.
-    int depth = 0;             ///< Vertices so far.
+    Ray ray{};                 ///< The next ray.
+    double throughput = 1;     ///< Factor of the radiance that the path finds; for a
+                               ///< photon its flux, W.
+    bool specular = false;     ///< Whether the last scattering was by a delta.
+    bool met_diffuse = false;  ///< Whether any scattering was not by a delta.
+    bool met_specular = false; ///< Whether any scattering was by a delta.
+    int depth = 0;             ///< Number of vertices so far.
 };
 
-/// A vector of the world in the frame of a surface.
+/// Transforms a vector from the world into the frame of a surface.
 [[nodiscard]] constexpr Vec2 to_local(const Vec2& normal, const Vec2& v) noexcept {
     return {v.x * normal.y - v.y * normal.x, v.x * normal.x + v.y * normal.y};
 }
 
-/// A vector of a surface's frame in the world.
+/// Transforms a vector from the frame of a surface into the world.
 [[nodiscard]] constexpr Vec2 to_world(const Vec2& normal, const Vec2& v) noexcept {
     return {v.x * normal.y + v.y * normal.x, v.y * normal.y - v.x * normal.x};
 }
 
-/// Sends a path to its next vertex.
+/// Moves a path to its next vertex.
 /// \param scene   The scene.
 /// \param path    The path; its depth is updated.
-/// \param stream  Moved to the start of the bounce.
+/// \param stream  Moved to the numbers of the next bounce.
 /// \return The vertex; nothing if the path leaves the scene.
 [[nodiscard]] inline std::optional<Vertex>
 next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
@@ -72,13 +72,13 @@ next_vertex(const Scene& scene, PathState& path, RandomStream& stream) {
 }
 
 /// Continues a path in a direction that the material samples, unless Russian roulette
-/// ends it: a path survives with the probability of its reflection, and keeps its
-/// throughput.
+/// ends the path. It survives with the reflectance of the material as probability, and
+/// its throughput is not reduced.
 /// \param path       The path; its ray and throughput are updated.
-/// \param vertex     Its vertex.
+/// \param vertex     The vertex that the path has reached.
 /// \param transport  The transported quantity: radiance or flux.
 /// \param stream     Two numbers are drawn.
-/// \return False if the path ends here: its light is absorbed.
+/// \return False if the path ends here.
 /// \report{Section 3.2.2}
 [[nodiscard]] inline bool continue_path(PathState& path, const Vertex& vertex,
                                         Transport transport, RandomStream& stream) {

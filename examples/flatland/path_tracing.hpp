@@ -1,26 +1,28 @@
 #pragma once
 
 /// \file flatland/path_tracing.hpp
-/// \brief A path tracer of the plane: the twin of every photon estimate.
+/// \brief A path tracer of the plane, the reference for photon estimates.
 
 #include "flatland/light.hpp"
 
 namespace flatland {
 
-// Eq. (1) with a dimension less.
+// Eq. (1) in two dimensions.
 
 /// The radiance that one random path finds. At a diffuse surface a shadow ray samples a
 /// lamp; a lamp that the path hits counts only if no shadow ray could have found it.
 /// \param scene      The scene.
-/// \param ray        From the eye.
+/// \param ray        A ray from the eye.
 /// \param stream     The random numbers of this path.
-/// \param max_depth  Surfaces on the path; 1 is emission and direct light.
-/// \return Radiance, W/(m rad); its mean is that of the scene, up to the depth.
+/// \param max_depth  Largest number of surfaces on the path; 1: emission and direct
+///                   light only.
+/// \return Radiance, W/(m rad): an unbiased estimate of the light of all paths up to
+///         max_depth.
 /// \report{Eq. (1)}
 // [radiance]
 [[nodiscard]] inline double radiance(const Scene& scene, const Ray& ray,
                                      RandomStream& stream, int max_depth = 1000) {
-    PathState path{.ray = ray, .specular = true}; // the eye sees lamps
+    PathState path{.ray = ray, .specular = true}; // true, because the eye sees lamps
     double sum = 0;
     while (path.depth < max_depth) {
         const auto vertex = next_vertex(scene, path, stream);

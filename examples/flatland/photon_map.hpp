@@ -12,27 +12,27 @@ namespace flatland {
 
 using ljus::Pass, ljus::PhotonKind, ljus::require_at_least, ljus::require_positive;
 
-// Sections 2.3 and 3.2.2 with a dimension less.
+// Sections 2.3 and 3.2.2 in two dimensions.
 
-/// A photon where it met a diffuse surface.
+/// A photon at the point where it met a diffuse surface.
 /// \report{Section 2.3}
 struct Photon {
-    Vec2 position{0};                     ///< In metres.
-    Vec2 direction{0};                    ///< Unit vector along its flight.
-    Vec2 normal{0, 1};                    ///< Of the surface.
-    double flux = 0;                      ///< In W.
-    PhotonKind kind = PhotonKind::direct; ///< What it met before.
+    Vec2 position{0};                     ///< Position, in metres.
+    Vec2 direction{0};                    ///< Direction of travel, unit vector.
+    Vec2 normal{0, 1};                    ///< Normal of the surface.
+    double flux = 0;                      ///< Flux, W.
+    PhotonKind kind = PhotonKind::direct; ///< Kind, by the surfaces met before.
 };
 
-/// The photons of a scene. Flatland has few, so they are a list that is searched
-/// linearly. For more there is the k-d tree of chapter 24.
+/// The photons of a scene. Flatland has few photons, which are kept in a list and
+/// searched one by one. For many photons there is the k-d tree of chapter 24.
 using PhotonMap = std::vector<Photon>;
 
 /// Settings of a photon pass.
 struct PhotonPassSettings {
-    int photons = 10000;    ///< Photons that leave the lamps.
-    std::uint64_t seed = 1; ///< Of their random numbers.
-    int max_bounces = 1000; ///< Surfaces on a photon's path.
+    int photons = 10000;    ///< Number of photons that the lamps emit.
+    std::uint64_t seed = 1; ///< Seed of the random numbers.
+    int max_bounces = 1000; ///< Largest number of surfaces on the path of a photon.
 };
 
 /// The kind of photon that a path would store at its vertex.
@@ -45,7 +45,7 @@ struct PhotonPassSettings {
 /// Follows one photon until it is absorbed or leaves the scene.
 /// \param scene        The scene.
 /// \param path         The emitted photon.
-/// \param stream       Its random numbers.
+/// \param stream       The random numbers of the photon.
 /// \param max_bounces  The largest number of surfaces on its path.
 /// \param visit        Called with the path and the vertex at each surface.
 // [trace_photon]
@@ -63,7 +63,7 @@ void trace_photon(const Scene& scene, PathState path, RandomStream& stream,
 
 /// Stores a photon at the vertex of its path, if the surface is diffuse.
 /// \param path    The path of the photon.
-/// \param vertex  Its vertex.
+/// \param vertex  The vertex that the path has reached.
 /// \param out     Receives the photon.
 inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap& out) {
     if (!std::holds_alternative<Lambertian>(vertex.object.material)) return;
@@ -71,9 +71,9 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
                    path.throughput, kind_of(path)});
 }
 
-/// The random numbers of one photon, the same for any number of photons.
-/// \param pass   Its seed.
-/// \param index  Which photon.
+/// The random numbers of one photon. They do not depend on the number of photons.
+/// \param pass   The settings, with the seed.
+/// \param index  The number of the photon.
 [[nodiscard]] constexpr RandomStream photon_stream(const PhotonPassSettings& pass,
                                                    int index) noexcept {
     return random_stream(pass.seed, Pass::general_photons, 0,
@@ -83,9 +83,9 @@ inline void store_photon(const PathState& path, const Vertex& vertex, PhotonMap&
 /// Sends photons through a scene and stores them at every diffuse surface that they
 /// hit.
 /// \param scene  The scene.
-/// \param pass   Number, seed and largest path.
+/// \param pass   Number of photons, seed, longest path.
 /// \return The photons, in the order of their paths.
-/// \throws std::invalid_argument  if nothing emits, or check() refuses the scene.
+/// \throws std::invalid_argument  if the scene has no lamp, or as check().
 /// \report{Section 3.2.2}
 [[nodiscard]] inline PhotonMap trace_photons(const Scene& scene,
                                              const PhotonPassSettings& pass) {

@@ -7,15 +7,15 @@
 
 namespace flatland {
 
-// The room of chapter 23, after that of the report's figure 1 (section 4.1).
+// The room of chapter 23 resembles that of the report's figure 1 (section 4.1).
 
 /// The settings that a reader may change.
 struct RoomSettings {
     Vec2 lamp{-0.45, 0.95};  ///< The middle of the lamp.
-    double index = 1.5;      ///< Of the disc of glass.
-    double albedo = 0.5;     ///< Of the walls.
-    double flux = 1;         ///< Of the lamp, in W.
-    double lamp_size = 0.03; ///< The lamp's radius, in metres.
+    double index = 1.5;      ///< Index of refraction of the disc.
+    double albedo = 0.5;     ///< Albedo of the walls.
+    double flux = 1;         ///< Flux of the lamp, W.
+    double lamp_size = 0.03; ///< Radius of the lamp, in metres.
 };
 
 /// The floor from end to end; its normal points up.
@@ -24,7 +24,7 @@ inline constexpr Segment room_floor{.from{-1, 0}, .to{1, 0}};
 inline constexpr Circle room_disc{.center{0.1, 0.45}, .radius = 0.25};
 /// The mirror, in the upper right corner.
 inline constexpr Segment room_mirror{.from{0.95, 0.6}, .to{0.6, 1.0}};
-/// The height of the room.
+/// The height of the room, in metres.
 inline constexpr double room_height = 1.1;
 
 /// Makes the room. The floor is its first object.

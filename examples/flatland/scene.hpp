@@ -19,15 +19,17 @@ namespace flatland {
 
 using ljus::require, ljus::require_unit;
 
-// Section 3.1 with a dimension less: walls are segments, balls are circles.
+// Section 3.1 in two dimensions: walls are segments, and balls are circles.
 
-/// A ray: the part of a line on which hits count.
+/// A ray, and the range of distances in which hits count.
 /// \report{Definition 3.1}
 struct Ray {
-    Vec2 origin{0};        ///< Where it starts.
+    Vec2 origin{0};        ///< The start of the ray.
     Vec2 direction{0, -1}; ///< Unit vector.
-    double t_min = 1e-9;   ///< Closest hit: a ray leaves the surface where it starts.
-    double t_max = std::numeric_limits<double>::infinity(); ///< Farthest hit.
+    double t_min = 1e-9;   ///< Least distance of a hit. It is above 0, so that a ray
+                           ///< does not hit the surface where it starts.
+    double t_max = std::numeric_limits<double>::infinity(); ///< Largest distance of a
+                                                            ///< hit.
 };
 
 /// A wall. Its normal points to the left when going from `from` to `to`.
@@ -40,7 +42,7 @@ struct Segment {
 /// \report{Definition 3.2}
 struct Circle {
     Vec2 center{0};    ///< Its centre.
-    double radius = 1; ///< Above 0.
+    double radius = 1; ///< Its radius, above 0.
 };
 
 /// Any shape of a scene.
@@ -48,20 +50,20 @@ using Shape = std::variant<Segment, Circle>;
 
 /// A point of a surface.
 struct SurfacePoint {
-    Vec2 position{0};  ///< In metres.
-    Vec2 normal{0, 1}; ///< Unit vector.
+    Vec2 position{0};  ///< Position, in metres.
+    Vec2 normal{0, 1}; ///< Unit normal.
 };
 
 /// A shape, its material and its emission.
 struct Object {
-    Shape shape{};       ///< Where it is.
-    Material material{}; ///< How it scatters light.
+    Shape shape{};       ///< Its shape and position.
+    Material material{}; ///< Its material.
     double emission = 0; ///< Radiance, W/(m rad), on the side of the normal.
 };
 
 /// A scene.
 struct Scene {
-    std::vector<Object> objects{}; ///< In any order.
+    std::vector<Object> objects{}; ///< Objects, in any order.
 };
 
 /// The hit of a ray on an object.
@@ -70,12 +72,12 @@ struct Hit {
     std::size_t id = 0; ///< The object's index in Scene::objects.
 };
 
-/// The distance at which a ray meets a segment: the point A + s (B - A) for which
-/// \f$ O + tD = A + s (B - A) \f$. Two equations of the plane for t and s; the cross
-/// product of each side with B - A, or with D, leaves one of them.
+/// The distance t at which a ray with origin O and direction D meets a segment from A
+/// to B. The point satisfies \f$ O + tD = A + s (B - A) \f$ with s in [0, 1]. The cross
+/// product of both sides with B - A gives t, and that with D gives s.
 /// \param ray      The ray.
 /// \param segment  The segment.
-/// \return t; nothing for a miss.
+/// \return The distance t; nothing for a miss.
 /// \report{Section 3.1.5}
 // [intersect segment]
 [[nodiscard]] inline std::optional<double> intersect(const Ray& ray,
@@ -94,11 +96,10 @@ struct Hit {
 }
 // [intersect segment]
 
-/// The distance at which a ray meets a circle: the formula of a ball in chapter 6,
-/// unchanged.
+/// The distance at which a ray meets a circle, by the formula for a ball in chapter 6.
 /// \param ray     The ray.
 /// \param circle  The circle.
-/// \return The smaller t within the ray's range; nothing for a miss.
+/// \return The smaller distance within the range of the ray; nothing for a miss.
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [intersect circle]
 [[nodiscard]] inline std::optional<double> intersect(const Ray& ray,
@@ -116,7 +117,7 @@ struct Hit {
 }
 // [intersect circle]
 
-/// The unit normal of a segment, everywhere the same.
+/// The unit normal of a segment, which is the same everywhere.
 [[nodiscard]] inline Vec2 normal(const Segment& segment, const Vec2&) noexcept {
     const Vec2 along = glm::normalize(segment.to - segment.from);
     return {-along.y, along.x};
@@ -146,7 +147,7 @@ struct Hit {
 /// \param scene  The scene.
 /// \param ray    The ray.
 /// \return The hit; nothing if the ray leaves the scene.
-/// \cost A loop over all objects: larger scenes need the tree of chapter 8.
+/// \cost A loop over all objects. Larger scenes need the tree of chapter 8.
 // [closest_hit]
 [[nodiscard]] inline std::optional<Hit> closest_hit(const Scene& scene, Ray ray) {
     std::optional<Hit> closest;
@@ -172,10 +173,11 @@ struct Hit {
     return closest_hit(scene, ray).has_value();
 }
 
-/// Refuses a scene with an invalid object. Sizes must be those of rooms: the t_min of a
-/// ray is a fixed distance that must be small beside them, and large beside rounding.
+/// Checks all objects of a scene. Coordinates and sizes must be those of rooms, because
+/// Ray::t_min is a fixed distance. It must be small compared with objects, and large
+/// compared with rounding errors.
 /// \param scene  The scene.
-/// \throws std::invalid_argument  with name and value.
+/// \throws std::invalid_argument  if a number is out of range, with its name and value.
 inline void check(const Scene& scene) {
     constexpr double largest = 1000;
     const auto require_near = [](const Vec2& p) {

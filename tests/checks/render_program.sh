@@ -291,7 +291,7 @@ for option in "--preset fast" "--rays 4" --plan "--explain 1,1" "--renderer path
     refused "cannot be combined with --seconds, which chooses the settings" "$scene" --seconds 1 \
         $option
 done
-refused "no time takes it away" "$scene" --width 8 --height 8 --error 1e-9
+refused "more time does not reduce it" "$scene" --width 8 --height 8 --error 1e-9
 refused "--skip" "$scene" --skip jensen
 refused "--skip-tolerance" "$scene" --skip-tolerance 1
 refused "--skip-risk" "$scene" --skip-risk 0

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file support/ball_caustic.hpp
-/// \brief Geometric optics in closed form: the light of a point light through a ball.
+/// \brief The light of a point light through a ball, by geometric optics in closed
+/// form.
 
 #include <cmath>
 #include <cstdlib>
@@ -10,38 +11,40 @@
 
 namespace ljus_test {
 
-/// A point light above a ball above a floor, all on one axis.
+/// A ball above a floor, with a point light above it on the vertical axis of the ball.
 ///
-/// A ray leaves the light at an angle alpha and meets the ball under theta_i, with
-/// sin theta_i = (D/R) sin alpha, at the angle phi = theta_i - alpha from the top of
-/// the ball. Each chord through the ball turns by pi - 2 theta_t around its centre.
-/// After k inner reflections the ray leaves at
-///     phi_e = theta_i - alpha + (k + 1)(pi - 2 theta_t)
-/// in the direction phi_e + theta_i, with the fraction (1 - F)^2 F^k; k = -1 is the
-/// reflection at the first boundary, with the fraction F.
+/// A ray leaves the light at an angle alpha from the axis, and meets the ball at the
+/// angle phi = theta_i - alpha from its top. The angle of incidence theta_i satisfies
+/// sin theta_i = (D/R) sin alpha, with the distance D of the light and the radius R of
+/// the ball. The angle of refraction is theta_t. Each chord through the ball turns by
+/// pi - 2 theta_t around its centre. After k inner reflections the ray leaves at phi_e
+/// = theta_i - alpha + (k + 1)(pi - 2 theta_t) in the direction phi_e + theta_i, with
+/// the fraction (1 - F)^2 F^k of its light, where F is the Fresnel reflectance. k = -1
+/// is the reflection at the first boundary, with the fraction F.
 struct BallCaustic {
-    double light = 2;      ///< D, from the centre of the ball up to the light.
-    double floor = 1;      ///< From the centre down to the floor.
-    double radius = 0.5;   ///< R.
-    double index = 1.5;    ///< n.
-    double intensity = 1;  ///< W/sr.
-    double absorption = 0; ///< Per unit, inside.
+    double light = 2;      ///< D: distance from the centre of the ball to the light.
+    double floor = 1;      ///< Distance from the centre of the ball to the floor.
+    double radius = 0.5;   ///< R: radius of the ball.
+    double index = 1.5;    ///< Index of refraction.
+    double intensity = 1;  ///< Intensity of the light, W/sr.
+    double absorption = 0; ///< Absorption inside the ball, per unit of length.
 
-    /// The largest alpha that meets the ball.
+    /// The largest angle alpha at which a ray meets the ball.
     [[nodiscard]] double last() const { return std::asin(radius / light); }
 
-    /// Unpolarised Fresnel reflectance from the two cosines.
+    /// The Fresnel reflectance of unpolarised light, from the cosines `ci` of incidence
+    /// and `ct` of refraction.
     [[nodiscard]] double fresnel(double ci, double ct) const {
         const double s = (ci - index * ct) / (ci + index * ct);
         const double p = (index * ci - ct) / (index * ci + ct);
         return (s * s + p * p) / 2;
     }
 
-    /// The path of one ray.
+    /// The place where a ray lands.
     struct Arrival {
-        bool lands = false; ///< False if it goes up.
-        double rho = 0;     ///< Signed distance from the axis on the floor.
-        double share = 0;   ///< Fraction of the light on this path.
+        bool lands = false; ///< Whether the ray reaches the floor.
+        double rho = 0;     ///< Signed distance from the axis, on the floor.
+        double share = 0;   ///< Fraction of the light that takes this path.
     };
 
     /// The ray that leaves at alpha, after k inner reflections.
@@ -63,9 +66,9 @@ struct BallCaustic {
     }
 
     /// Sums over all light that lands.
-    /// \param add    Called as add(rho, flux) with |rho|.
-    /// \param first  -1: include reflection outside; 0: do not.
-    /// \param steps  Rays between the axis and the edge of the ball.
+    /// \param add    Called as add(rho, flux), with rho >= 0.
+    /// \param first  -1 to include the reflection at the outside; 0 without it.
+    /// \param steps  Number of rays between the axis and the edge of the ball.
     template <typename Add>
     void shower(Add add, int first = -1, int steps = 40000) const {
         const double width = last() / steps;
@@ -81,8 +84,9 @@ struct BallCaustic {
         }
     }
 
-    /// The irradiance at a distance from the axis, by the ratio of areas: each way to
-    /// get there adds I sin(alpha) share / (rho |d rho / d alpha|).
+    /// The irradiance of the floor at the distance rho from the axis. Each path to that
+    /// distance adds I sin(alpha) share / (rho |d rho / d alpha|), where I is the
+    /// intensity.
     [[nodiscard]] double irradiance(double rho, int first = -1,
                                     int steps = 4000) const {
         double sum = 0;

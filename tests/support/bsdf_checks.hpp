@@ -21,12 +21,12 @@
 
 namespace ljus_test {
 
-// For a material of another namespace that leaves them to the
-// library; see OnlySpecular.
+// These functions also serve materials of other namespaces that do not define them; see
+// OnlySpecular.
 using ljus::evaluate, ljus::lobes, ljus::pdf;
 
-/// The middles of n equal arcs of the unit circle, for sums over a hemisphere that need
-/// their sines and cosines many times.
+/// The middles of n equal arcs of the unit circle. They are computed once for sums over
+/// a hemisphere.
 inline std::vector<glm::dvec2> directions_around(int n) {
     std::vector<glm::dvec2> ring;
     for (int i = 0; i < n; ++i) {
@@ -36,8 +36,8 @@ inline std::vector<glm::dvec2> directions_around(int n) {
     return ring;
 }
 
-/// The fraction of uniform light that the lobes with an f send to `wo`, by the
-/// midpoint rule in sin^2(theta) and phi: exact for a constant f.
+/// The fraction of uniform light that all lobes but deltas send to `wo`, by the
+/// midpoint rule in sin^2(theta) and phi. The rule is exact for a constant BSDF.
 template <ljus::Material M>
 ljus::RgbT<double> albedo_by_quadrature(const M& m,
                                         const ljus::Vec3T<typename M::Scalar>& wo,
@@ -58,8 +58,9 @@ ljus::RgbT<double> albedo_by_quadrature(const M& m,
     return sum * (std::numbers::pi / n / n); // d(omega) cos = d(sin^2) d(phi)/2
 }
 
-/// The fraction that the delta lobes send to `wo`: the mean of their weights over a
-/// grid of u.z, which alone decides. Within a few 1/steps.
+/// The fraction of uniform light that the delta lobes send to `wo`: the mean weight of
+/// samples over a grid of u.z. The weight depends on no other number, and the error is
+/// a few 1/steps.
 template <ljus::Material M>
 ljus::RgbT<double> specular_albedo(const M& m,
                                    const ljus::Vec3T<typename M::Scalar>& wo,
@@ -74,7 +75,8 @@ ljus::RgbT<double> specular_albedo(const M& m,
     return sum / double(steps);
 }
 
-/// Helmholtz: f does not change when its directions are exchanged.
+/// Checks Helmholtz reciprocity: the BSDF does not change if its directions are
+/// exchanged.
 template <ljus::Material M>
 void check_reciprocity(const M& m, double roundoffs = 4) {
     using T = typename M::Scalar;
@@ -91,10 +93,10 @@ void check_reciprocity(const M& m, double roundoffs = 4) {
     }
 }
 
-/// For one wo: sample() and pdf() agree under `which` (chi-square, false
-/// alarm 3 in 10 million for each call), weight = f |cos|/pdf, directions are unit
-/// vectors, and no lobe appears that was not requested. The density is summed over
-/// `fine` by `fine` points of each cell.
+/// Checks the samples of one `wo`, for the lobes `which`. sample() and pdf() must
+/// agree, by a chi-square test with 3 false alarms in 10 million calls. The weight must
+/// be f |cos|/pdf, directions must be unit vectors, and only requested lobes may
+/// appear. The density of a cell is summed over `fine` by `fine` points.
 template <ljus::Material M>
 void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
                     ljus::Lobes which = ljus::Lobes::all, std::uint64_t seed = 1,
@@ -102,7 +104,7 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
     using T = typename M::Scalar;
     constexpr int rows = 10, columns = 12, count = 60000;
     constexpr double dphi = 2 * std::numbers::pi / columns, dz = 2.0 / rows;
-    // The last cell is for deltas and for what is absorbed.
+    // The last cell counts deltas and absorbed samples.
     std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
     const std::vector<glm::dvec2> ring = directions_around(columns * fine);
     double dense = 0;
@@ -123,7 +125,7 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
         }
     CHECK(dense <= 1 + 1e-5);
     expected.back() = std::max(0.0, 1 - dense) * count;
-    if (expected.back() < 1) expected.back() = 0; // quadrature error
+    if (expected.back() < 1) expected.back() = 0; // error of the quadrature
 
     Draws draws{seed};
     const T u = std::numeric_limits<T>::epsilon() / 2;
@@ -158,8 +160,9 @@ void check_sampling(const M& m, const ljus::Vec3T<typename M::Scalar>& wo,
     CHECK(chi_square_agrees(counts, expected, 5.0));
 }
 
-/// At every corner of the unit cube and for steep, flat and grazing wo: no NaN, no
-/// infinity, no negative number, unit vectors only, and nothing for wo on the surface.
+/// Checks extreme arguments: every corner of the unit cube, and steep, flat and grazing
+/// `wo`. There must be no NaN, infinity or negative number, all directions must be unit
+/// vectors, and a `wo` on the surface must give no sample.
 template <ljus::Material M>
 void check_extremes(const M& m, double most_weight) {
     using T = typename M::Scalar;
@@ -194,15 +197,15 @@ void check_extremes(const M& m, double most_weight) {
     CHECK(
         ljus::is_black(evaluate(m, ljus::Vec3T<T>{1, 0, 0}, ljus::Vec3T<T>{0, 0, 1})));
     CHECK(pdf(m, ljus::Vec3T<T>{0, 0, 1}, ljus::Vec3T<T>{1, 0, 0}) == 0);
-    // Without a lobe to choose from there is no sample.
+    // Without an allowed lobe there is no sample.
     const ljus::Vec3T<T> up{0, 0, 1};
     CHECK_FALSE(sample(m, up, u, ljus::Transport::flux, ljus::Lobes::none));
     CHECK(pdf(m, up, up, ljus::Lobes::none) == 0);
     CHECK(pdf(m, up, up, ljus::Lobes::specular) == 0);
 }
 
-/// Around the normal, and on the two sides of a surface that is the same from both, f
-/// and the density are the same; and the albedo does not exceed that of the facets.
+/// Checks that BSDF and density do not depend on the angle around the normal nor on the
+/// side of the surface, and that the albedo does not exceed that of the facets.
 template <ljus::Material M>
 void check_symmetry(const M& m) {
     using T = typename M::Scalar;
@@ -227,7 +230,8 @@ void check_symmetry(const M& m) {
     }
 }
 
-/// The sentence with which check() refuses a material; empty if it does not.
+/// The message with which check() refuses a material; empty if check() accepts the
+/// material.
 template <ljus::Material M>
 std::string refusal(const M& m) {
     return refusal([&] { check(m); });

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/draws.hpp
-/// \brief Numbers and directions of any precision for tests, the
-/// same with every compiler.
+/// \brief Random numbers and directions of any precision for tests. They are the same
+/// with every compiler.
 
 #include <cmath>
 #include <concepts>
@@ -13,11 +13,12 @@
 
 namespace ljus_test {
 
-/// SplitMix64: a counter and a good mixer, independent of the library's own streams.
+/// The generator SplitMix64: a counter whose bits are mixed. It is independent of the
+/// streams of the library.
 struct Draws {
     std::uint64_t state = 1; ///< The seed.
 
-    /// 64 random bits.
+    /// Draws 64 random bits.
     std::uint64_t bits() {
         std::uint64_t z = (state += 0x9e3779b97f4a7c15ull);
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -25,7 +26,7 @@ struct Draws {
         return z ^ (z >> 31);
     }
 
-    /// A number of [0, 1) with 24 bits, or 53 in double.
+    /// A number in [0, 1) with 24 bits, or 53 bits in double.
     template <std::floating_point T = double>
     T unit() {
         constexpr int keep = sizeof(T) == 4 ? 24 : 53;
@@ -33,14 +34,14 @@ struct Draws {
                (T(1) / static_cast<T>(1ull << keep));
     }
 
-    /// A number of [low, high).
+    /// A number in [low, high).
     template <std::floating_point T>
     T between(T low, T high) {
         return low + (high - low) * unit<T>();
     }
     double between(double low, double high) { return between<double>(low, high); }
 
-    /// A whole number of [0, count).
+    /// A whole number in [0, count).
     int below(int count) { return static_cast<int>(unit() * count); }
 
     /// A point of the unit square.
@@ -57,14 +58,14 @@ struct Draws {
         return {x, y, unit<T>()};
     }
 
-    /// A point of the cube [-size, size)^3, made in double and rounded once.
+    /// A point of the cube [-size, size)^3, computed in double and rounded once.
     template <std::floating_point T>
     ljus::Vec3T<T> point(double size) {
         const double x = between(-size, size), y = between(-size, size);
         return {T(x), T(y), T(between(-size, size))};
     }
 
-    /// A uniformly distributed direction, made in long double and rounded once.
+    /// A uniformly distributed direction, computed in long double and rounded once.
     template <std::floating_point T>
     ljus::Vec3T<T> direction() {
         using L = long double;
@@ -82,7 +83,7 @@ struct Draws {
     }
 };
 
-/// A direction at an angle to +z, made in long double and rounded once.
+/// A direction at an angle to +z, computed in long double and rounded once.
 template <std::floating_point T>
 ljus::Vec3T<T> at_degrees(double theta, double phi = 0) {
     using L = long double;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file support/exact.hpp
-/// \brief Exact arithmetic for oracles: every float and every double is a fraction.
+/// \brief Exact arithmetic for reference values. Every finite float or double is a
+/// fraction.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,8 @@ inline Exact3 abs(const Exact3& a) {
 inline Exact triple(const Exact3& a, const Exact3& b, const Exact3& c) {
     return dot(a, cross(b, c));
 }
-/// triple() with all signs positive: the size of what may cancel in it.
+/// The sum of the absolute values of the terms of triple(). In triple() these terms may
+/// cancel.
 inline Exact triple_size(const Exact3& a, const Exact3& b, const Exact3& c) {
     return a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) +
            a.z * (b.x * c.y + b.y * c.x);
@@ -62,9 +64,9 @@ inline double to_double(const Exact& x) {
     return x.convert_to<double>();
 }
 
-/// \name The same with integers, many times faster
-/// Every float is an integer times a power of two; on the grid of the smallest such
-/// power sums and products are exact.
+/// \name Exact arithmetic with integers, many times faster
+/// Every float is an integer times a power of two. With the smallest such power as the
+/// unit, sums and products of integers are exact.
 /// \{
 
 using Integer = boost::multiprecision::cpp_int;
@@ -72,7 +74,8 @@ struct Integer3 {
     Integer x, y, z;
 };
 
-/// The exponent e for which value is an integer times 2^e, as large as its type allows.
+/// An exponent e for which `value` is an integer times 2^e, where the integer uses all
+/// bits of the mantissa.
 template <std::floating_point T>
 int grid_exponent(T value) {
     if (value == T(0)) return 1 << 20;
@@ -129,7 +132,7 @@ inline Exact power_of_two(int exponent) {
 }
 /// \}
 
-/// How many units in the last place of T lie between a value and the truth.
+/// The difference between a value and the truth, in units in the last place of T.
 template <typename T>
 double ulps(T value, const Exact& truth) {
     const double size = std::abs(to_double(truth));

@@ -1,14 +1,15 @@
 #pragma once
 
 /// \file form_factor_facing.hpp
-/// \brief A closed form \cite howell2010 that form factors are compared with.
+/// \brief A form factor in closed form \cite howell2010 , as a reference.
 
 #include <cmath>
 #include <numbers>
 
 namespace ljus_test {
 
-/// The form factor between two equal rectangles that face each other.
+/// The form factor between two equal rectangles with sides a and b that face each
+/// other.
 inline double form_factor_facing(double a, double b, double distance) noexcept {
     const double x = a / distance, y = b / distance;
     const double x1 = std::sqrt(1 + x * x), y1 = std::sqrt(1 + y * y);

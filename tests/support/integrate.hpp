@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file support/integrate.hpp
-/// \brief Integrals of smooth functions, as references.
+/// \brief Integrals of smooth functions, for reference values.
 
 namespace ljus_test {
 
-/// Gauss and Legendre's rule with 8 points over [low, high].
+/// The integral over [low, high], by Gauss-Legendre quadrature with 8 points.
 template <typename F>
 double integrate(double low, double high, F&& f) {
     constexpr double x[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
@@ -19,7 +19,8 @@ double integrate(double low, double high, F&& f) {
     return sum * half;
 }
 
-/// The same over [low, high] cut into pieces.
+/// The integral over [low, high], by Gauss-Legendre quadrature with 8 points on each of
+/// `pieces` equal pieces.
 template <typename F>
 double integrate(double low, double high, int pieces, F&& f) {
     double sum = 0;

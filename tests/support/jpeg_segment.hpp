@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/jpeg_segment.hpp
-/// \brief JPEG files that no program writes, segment by segment.
+/// \brief Makes unusual JPEG files, segment by segment.
 
 #include <initializer_list>
 #include <vector>
@@ -9,9 +9,10 @@
 namespace ljus_test {
 
 /// Adds a segment to a JPEG file.
-/// \param file    Its bytes.
-/// \param kind    The byte behind 0xff: 0xdb for units, 0xc4 for codes, ...
-/// \param values  What follows the length, a byte each.
+/// \param file    The bytes of the file.
+/// \param kind    The byte after 0xff: 0xdb for quantisation tables, 0xc4 for Huffman
+///                tables, ...
+/// \param values  The bytes after the length.
 inline void add_jpeg_segment(std::vector<unsigned char>& file, int kind,
                              std::initializer_list<int> values) {
     for (const int v : {0xff, kind, 0, static_cast<int>(values.size()) + 2})

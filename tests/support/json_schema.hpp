@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file support/json_schema.hpp
-/// \brief A checker of JSON against a JSON schema: the keywords that scene files need.
+/// \brief Checks JSON against a JSON schema, with the keywords that the schema of scene
+/// files uses.
 
 #include <cmath>
 #include <stdexcept>
@@ -13,7 +14,7 @@ namespace ljus_test {
 
 /// Whether a value is valid by a part of a schema.
 /// \param root  The whole schema, for references.
-/// \throws std::runtime_error  for a keyword that it does not know.
+/// \throws std::runtime_error  for an unknown keyword.
 inline bool valid(const nlohmann::json& value, const nlohmann::json& schema,
                   const nlohmann::json& root) {
     const auto type_is = [&](const std::string& type) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/leaks.hpp
-/// \brief Closed meshes, and rays from within them at their vertices and edges: a ray
-/// that meets nothing has leaked.
+/// \brief Closed meshes, and rays from inside at their vertices and edges. A ray that
+/// meets no triangle has leaked.
 
 #include <algorithm>
 #include <array>
@@ -18,11 +18,12 @@
 
 namespace ljus_test {
 
-/// A closed mesh, nearly convex, around a centre.
+/// A closed and nearly convex mesh around a centre.
 struct ClosedMesh {
     ljus::Vec3T<double> center{0};
     std::vector<ljus::Vec3> vertices{};
-    std::vector<std::array<std::uint32_t, 3>> faces{};            ///< Outer side: ccw.
+    std::vector<std::array<std::uint32_t, 3>> faces{};            ///< Counter-clockwise
+                                                                  ///< from outside.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges{}; ///< Each once.
     std::vector<ljus::Triangle> triangles{}; ///< The faces, as shapes.
 };
@@ -37,8 +38,8 @@ inline void finish(ClosedMesh& mesh) {
     }
 }
 
-/// An octahedron whose faces are cut in four `level` times, put on a ball of radius
-/// `radius` and dented by up to 4 %: 8 * 4^level triangles.
+/// An octahedron whose faces are cut into four `level` times, which gives 8 * 4^level
+/// triangles. The vertices are moved onto a ball and dented by up to 4 %.
 inline ClosedMesh dented_ball(int level, double radius, ljus::Vec3T<double> center,
                               std::uint64_t seed = 1) {
     using V = ljus::Vec3T<double>;
@@ -75,8 +76,8 @@ inline ClosedMesh dented_ball(int level, double radius, ljus::Vec3T<double> cent
     return mesh;
 }
 
-/// A cube whose faces are cut into `cuts` x `cuts` squares of two triangles: its edges
-/// lie along the axes, and so may a ray.
+/// A cube whose faces are cut into `cuts` x `cuts` squares of two triangles. Its edges
+/// are parallel to the axes, as rays may be.
 inline ClosedMesh cut_cube(int cuts, double half, ljus::Vec3T<double> center) {
     using V = ljus::Vec3T<double>;
     ClosedMesh mesh{.center = center};
@@ -115,10 +116,10 @@ inline ClosedMesh cut_cube(int cuts, double half, ljus::Vec3T<double> center) {
 
 /// The target of a ray.
 enum class Aim {
-    edge,   ///< Somewhere along an edge; the direction has unit length.
-    vertex, ///< A vertex; the direction has unit length.
+    edge,   ///< A point of an edge. The direction has unit length.
+    vertex, ///< A vertex. The direction has unit length.
     axis,   ///< A vertex or an edge, in the direction of an axis.
-    tie     ///< A vertex or an edge; the direction is the way there, often exactly.
+    tie     ///< A vertex or an edge. The direction leads to the target, often exactly.
 };
 
 /// A ray from within the mesh at a vertex or edge. For Aim::axis the direction
@@ -135,7 +136,7 @@ inline ljus::Ray ray_at_seam(const ClosedMesh& mesh, Aim aim, Numbers& n) {
     }
     const V out = target - mesh.center;
     if (aim == Aim::axis) {
-        const ljus::Vec3 start(target); // its other coordinates are those of the target
+        const ljus::Vec3 start(target); // two coordinates stay the same
         const V size = glm::abs(out);
         const int axis = size.x > size.y   ? (size.x > size.z ? 0 : 2)
                          : size.y > size.z ? 1
@@ -147,7 +148,7 @@ inline ljus::Ray ray_at_seam(const ClosedMesh& mesh, Aim aim, Numbers& n) {
         ray.origin[axis] -= static_cast<float>(n.between(0.1, 0.9) * out[axis]);
         return ray;
     }
-    // Two thirds out at most, where all is still inside.
+    // At most half of the way out, which is inside the mesh.
     const V origin = mesh.center + n.between(0, 0.5) * glm::length(out) * n.direction();
     ljus::Ray ray{.origin = ljus::Vec3(origin)};
     const V way = target - V(ray.origin);
@@ -155,9 +156,8 @@ inline ljus::Ray ray_at_seam(const ClosedMesh& mesh, Aim aim, Numbers& n) {
     return ray;
 }
 
-/// How many of `count` rays from within meet nothing.
-/// \param meets  bool(const Ray&): whether the ray hits the mesh, by any
-///               loop or tree.
+/// The number of rays from inside, among `count`, that meet nothing.
+/// \param meets  Returns whether a ray hits the mesh, by any loop or tree.
 template <typename Meets>
 long count_leaks(const ClosedMesh& mesh, Aim aim, long count, Meets meets,
                  std::uint64_t seed = 1) {
@@ -167,7 +167,7 @@ long count_leaks(const ClosedMesh& mesh, Aim aim, long count, Meets meets,
     return leaks;
 }
 
-/// The same by a loop over all triangles.
+/// The number of rays that meet nothing, by a loop over all triangles.
 /// \tparam Test  The intersection test: float, double or Watertight.
 template <typename Test>
 long loop_leaks(const ClosedMesh& mesh, Aim aim, long count) {

@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file support/light_tracer.hpp
-/// \brief An oracle that shares no code with the renderers: particles start from the
-/// lights, and each matt surface that they hit is connected to the pinhole.
+/// \brief A reference renderer that shares no code with the others. Particles start at
+/// the lights, and each matt surface that a particle hits is connected to the pinhole
+/// of the camera.
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@
 
 namespace ljus_test {
 
-/// Which pixels see, wholly and with their neighbours, surfaces without a specular part
-/// first.
+/// The pixels whose first surfaces, and those of their neighbours, have no specular
+/// part.
 template <ljus::AnyWorld W, std::floating_point T>
 std::vector<bool> matt_pixels(const W& scene, const ljus::CameraT<T>& camera, int width,
                               int height) {
@@ -43,7 +44,7 @@ std::vector<bool> matt_pixels(const W& scene, const ljus::CameraT<T>& camera, in
     return all;
 }
 
-/// Random numbers independent of the library's.
+/// Random numbers that are independent of the library.
 struct Uniform {
     std::mt19937_64 engine;
 
@@ -56,7 +57,7 @@ struct Uniform {
         return {std::min(x, last), std::min(y, last), std::min(T(next()), last)};
     }
 
-    /// A direction around an axis, uniform over the sphere or with density cos/pi.
+    /// A direction, uniform over the sphere, or with density cos/pi around an axis.
     template <typename T>
     ljus::Vec3T<T> direction_around(const ljus::Vec3T<T>& axis, bool lambert) {
         const double z = lambert ? std::sqrt(next()) : 2 * next() - 1;
@@ -75,10 +76,10 @@ template <std::floating_point T>
 struct Particle {
     ljus::RayT<T> ray{};
     glm::dvec3 flux{0};
-    ljus::RgbT<T> medium{T(0)}; ///< Absorption of the medium that it is in.
+    ljus::RgbT<T> medium{T(0)}; ///< Absorption of the medium around the particle.
 };
 
-/// A particle with a fraction of a point light's flux.
+/// A particle from a point light, with a fraction of its flux.
 template <std::floating_point T>
 Particle<T> leave(const ljus::PointLightT<T>& light, double share, Uniform& uniform) {
     return {{.origin = light.position,
@@ -86,7 +87,7 @@ Particle<T> leave(const ljus::PointLightT<T>& light, double share, Uniform& unif
                  uniform.direction_around(ljus::Vec3T<T>{T(0), T(0), T(1)}, false)},
             4 * std::numbers::pi * share * glm::dvec3(light.intensity)};
 }
-/// The same for a lamp.
+/// A particle from a lamp, with a fraction of its flux.
 template <typename S, std::floating_point T = ljus::ScalarOf<S>>
 Particle<T> leave(const ljus::AreaLightT<S>& light, double share, Uniform& uniform) {
     const ljus::Vec3T<T> u = uniform.cube<T>();
@@ -97,16 +98,16 @@ Particle<T> leave(const ljus::AreaLightT<S>& light, double share, Uniform& unifo
                 glm::dvec3(light.lamp.radiance)};
 }
 
-/// The pixel in which a point appears, and the size of a pixel at the point.
+/// The pixel in which a point appears, and the area that a pixel covers there.
 struct FilmPlace {
     int x = 0, y = 0;
-    double area = 0; ///< Across the way to the pinhole.
+    double area = 0; ///< Area perpendicular to the direction of the pinhole.
 };
 
-/// The pixel of a point at `way` from the pinhole; nothing outside of the picture.
+/// The pixel of the point at the vector `way` from the pinhole; nothing outside the
+/// picture.
 ///
-/// A pixel covers an area on the film at distance 1, of which a solid angle d omega
-/// covers d omega / cos^3.
+/// On the film at distance 1 a solid angle d omega covers the area d omega / cos^3.
 template <std::floating_point T>
 std::optional<FilmPlace> place_on_film(const ljus::CameraT<T>& camera, int width,
                                        int height, const glm::dvec3& way) {
@@ -124,11 +125,12 @@ std::optional<FilmPlace> place_on_film(const ljus::CameraT<T>& camera, int width
                      d * d * cos_film * cos_film * cos_film * pixel_area};
 }
 
-/// The picture of all paths E D ... L, the first surface matt: light that mirrors and
-/// glass throw on it included, lamps themselves not.
+/// The picture of all paths E D ... L, whose first surface is matt. It includes light
+/// that reaches this surface by mirrors and glass, but not lamps that the eye sees.
 ///
-/// A pixel is the mean of L over its area. A surface element dA at distance d covers
-/// d omega = cos_x dA / d^2, and L dA = sum of f dPhi.
+/// A pixel is the mean of the radiance L over its area. A surface element dA at
+/// distance d covers the solid angle d omega = cos_x dA / d^2. L dA is the sum of f
+/// dPhi, with the BSDF f and the flux dPhi of each particle.
 /// \param particles  Number of particles.
 template <ljus::AnyWorld W, std::floating_point T>
 ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
@@ -138,7 +140,7 @@ ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
     Uniform uniform{std::mt19937_64(seed)};
     auto image = make_image<double>(width, height);
 
-    // What a surface sends to the pinhole of a particle that comes from `from`.
+    // Adds the light that a surface reflects to the pinhole, of a particle from `from`.
     const auto join = [&](const auto& at, const auto& material, const Vec3T<T>& from,
                           const glm::dvec3& flux) {
         const glm::dvec3 way =
@@ -155,7 +157,7 @@ ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
             pixel(image, place->x, place->y) +=
                 flux * f * std::abs(double(to_camera.z)) / place->area;
     };
-    // Sends a particle on; false if it is absorbed.
+    // Scatters a particle; returns false if it is absorbed.
     const auto scatter = [&](const auto& at, const auto& material, const Vec3T<T>& from,
                              Particle<T>& particle) {
         const auto next = sample(material, from, uniform.cube<T>(), Transport::flux);
@@ -188,7 +190,7 @@ ljus::ImageT<double> trace_light(const W& scene, const ljus::CameraT<T>& camera,
                     return scatter(at, material, from, particle);
                 });
             if (!goes_on) break;
-            if (bounce >= 3) { // a quarter ends here
+            if (bounce >= 3) { // roulette: a quarter ends
                 if (uniform.next() < 0.25) break;
                 particle.flux /= 0.75;
             }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What happens to work that runs out of memory, in a process of its own.
+// Tests work that runs out of memory, in a process of its own.
 
 #include <cstddef>
 #include <exception>
@@ -8,7 +8,7 @@
 #include <new>
 #include <string>
 
-// A child of a program with a sanitizer has no limit of memory that it would bear.
+// A program with a sanitizer cannot run under a limit of memory.
 #ifdef __has_feature
 #if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
 #define LJUS_TEST_SANITIZER
@@ -26,9 +26,9 @@
 
 namespace ljus_test {
 
-// Calls `work`, which returns whether its result is right, with `step` bytes more than
-// the process has, then with two steps more, and so on up to `most`, until it has
-// succeeded twice.
+// Calls `work`, which returns whether its result is right, with little memory: `step`
+// bytes more than the process has, then two steps more, and so on up to `most`, until
+// it has succeeded twice.
 // \return Empty if every call succeeded or threw std::bad_alloc, and both happened.
 template <typename Work>
 std::string trouble_with_little_memory(std::size_t step, std::size_t most, Work work) {

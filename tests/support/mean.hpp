@@ -16,9 +16,9 @@ namespace ljus_test {
 
 /// The mean of each channel of a renderer's radiance over many paths.
 /// \param renderer  A path tracer or a photon mapper.
-/// \param paths     How many.
-/// \param seed      Of their random numbers; see test_seed().
-/// \param ray       Called with the path's stream; returns where it starts.
+/// \param paths     The number of paths.
+/// \param seed      Seed of the random numbers; see test_seed().
+/// \param ray       Called with the stream of a path; returns its first ray.
 template <typename Renderer, typename MakeRay>
 [[nodiscard]] std::array<Mean, 3> mean_radiances(const Renderer& renderer,
                                                  long long paths, std::uint64_t seed,
@@ -36,7 +36,7 @@ template <typename Renderer, typename MakeRay>
     return means;
 }
 
-/// That of one channel: 0, 1 or 2.
+/// The mean of one channel, 0, 1 or 2, of a renderer's radiance over many paths.
 template <typename Renderer, typename MakeRay>
 [[nodiscard]] Mean mean_radiance(const Renderer& renderer, long long paths,
                                  std::uint64_t seed, MakeRay ray, int channel = 0) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file tests/support/mesh_bytes.hpp
-/// \brief The bytes of a mesh in the formats of other programs.
+/// \brief Writes meshes as bytes in the formats PLY and STL.
 
 #include <bit>
 #include <string>
@@ -15,7 +15,7 @@ namespace ljus_test {
 using ljus::Bytes;
 using ljus::MeshData;
 
-/// The lowest bytes of a number, the lowest one first or last.
+/// Appends the lowest `size` bytes of a number, lowest byte first or, with `big`, last.
 inline void add_number(Bytes& bytes, std::uint64_t bits, int size, bool big = false) {
     for (int i = 0; i < size; ++i)
         bytes.push_back(
@@ -35,7 +35,8 @@ inline std::string text_of(const ljus::Vec3& v) {
     return ljus::to_text(v.x) + " " + ljus::to_text(v.y) + " " + ljus::to_text(v.z);
 }
 
-/// A PLY file with normals, if the mesh has some: ascii, or binary of either order.
+/// The bytes of a PLY file, in ascii or in binary of either byte order. It has normals
+/// if the mesh has some.
 inline Bytes ply_bytes(const MeshData& data, const std::string& format) {
     const bool text = format == "ascii", big = format == "binary_big_endian";
     std::string head = "ply\nformat " + format +
@@ -75,7 +76,7 @@ inline Bytes ply_bytes(const MeshData& data, const std::string& format) {
     return bytes;
 }
 
-/// An STL file: text, or binary behind a head of 80 bytes.
+/// The bytes of an STL file, as text or in binary with a header of 80 bytes.
 inline Bytes stl_bytes(const MeshData& data, bool text, std::string head = "") {
     head.resize(80, ' ');
     Bytes bytes = text_bytes(head);
@@ -94,7 +95,7 @@ inline Bytes stl_bytes(const MeshData& data, bool text, std::string head = "") {
     return text ? text_bytes(lines + "endsolid\n") : bytes;
 }
 
-/// The sum of the areas of all triangles.
+/// The area of all triangles together.
 inline double area_of(const MeshData& data) {
     double sum = 0;
     for (const auto& [a, b, c] : data.triangles) {
@@ -106,7 +107,7 @@ inline double area_of(const MeshData& data) {
     return sum;
 }
 
-/// The sentence with which a call refuses its argument; "nothing" if it does not.
+/// The message with which a call refuses its argument; "nothing" if the call succeeds.
 template <typename Call>
 std::string refusal_of(Call call) {
     try {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file tests/support/mesh_checks.hpp
-/// \brief Whether a mesh is read as it was written.
+/// \brief Checks that a mesh is read as it was written.
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 
 namespace ljus_test {
 
-/// Checks that a closed mesh was read whole, and that nothing was odd.
+/// Checks that a closed mesh was read completely and without a problem in the report.
 /// \return The mesh.
 inline const ljus::Mesh& check_whole(const ljus::LoadedMesh& loaded,
                                      const MeshData& data) {

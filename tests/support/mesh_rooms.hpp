@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/mesh_rooms.hpp
-/// \brief Scenes with a mesh, and the light that goes from a lamp over it to a floor.
+/// \brief Scenes with a mesh that reflects the light of a lamp to a floor.
 
 #include <tuple>
 
@@ -20,8 +20,8 @@ using MeshRoom =
                 ljus::Materials<ljus::Lambertian, ljus::Mirror, ljus::Glass>>;
 using ClosedMeshRoom = ljus::World<MeshRoom>;
 
-/// A lamp of 2 x 2 that lies on a black floor of 6 x 6 and shines up at a shape above
-/// it: all light on the floor has met the shape.
+/// A lamp of 2 x 2 that lies on a black floor of 6 x 6 and shines up at a shape. All
+/// light on the floor has therefore met the shape.
 template <typename Shape, typename Material>
 ClosedMeshRoom lamp_below(const Shape& shape, const Material& material) {
     using namespace ljus;
@@ -34,7 +34,7 @@ ClosedMeshRoom lamp_below(const Shape& shape, const Material& material) {
     return ClosedMeshRoom(std::move(room));
 }
 
-/// The flux on the floor by photons, over `photons` paths.
+/// The flux on the floor, measured by `photons` photon paths.
 inline Mean flux_by_photons(const ClosedMeshRoom& room, int photons,
                             std::uint64_t seed) {
     using namespace ljus;
@@ -44,7 +44,7 @@ inline Mean flux_by_photons(const ClosedMeshRoom& room, int photons,
         auto stream = random_stream(seed, Pass::general_photons, 0,
                                     static_cast<std::uint64_t>(i));
         detail::PhotonBlockT<float> block;
-        // The general law leaves out what only mirrors and glass have sent there.
+        // The general map lacks light that has met only mirrors and glass.
         for (const MapType law : {MapType::general, MapType::caustics})
             detail::trace_photon(room, law, {emit(room, room.light_choice(), stream)},
                                  pass, stream, block);
@@ -56,8 +56,9 @@ inline Mean flux_by_photons(const ClosedMeshRoom& room, int photons,
     return mean;
 }
 
-/// The same flux, by camera paths that start on the floor: mean radiance times pi times
-/// area; paths that hit the lamp's back or the black floor add nothing.
+/// The flux on the floor, measured by camera paths that start on the floor: the mean
+/// radiance times pi times the area. Paths that hit the back of the lamp or the black
+/// floor add nothing.
 inline Mean flux_by_paths(const ClosedMeshRoom& room, int paths, std::uint64_t seed) {
     using namespace ljus;
     const PathTracer tracer(room, {.max_depth = 100});

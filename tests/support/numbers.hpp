@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/numbers.hpp
-/// \brief Random numbers for tests: the same everywhere, and independent of the
-/// library's.
+/// \brief Random numbers for tests. They are the same on every machine and independent
+/// of the library.
 
 #include <cmath>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace ljus_test {
 
-/// Knuth's linear congruential generator: its upper bits are good enough for tests.
+/// Knuth's linear congruential generator, whose upper bits are random enough for tests.
 struct Numbers {
     std::uint64_t state = 1;
     double next() {
@@ -29,7 +29,7 @@ struct Numbers {
         const double x = between(-size, size), y = between(-size, size);
         return {x, y, between(-size, size)};
     }
-    ljus::Vec3 whole_point(int size) { // of whole numbers, exact in float up to 2^24
+    ljus::Vec3 whole_point(int size) { // whole coordinates, exact in float up to 2^24
         const auto part = [&] { return static_cast<float>(below(2 * size) - size); };
         const float x = part(), y = part();
         return {x, y, part()};

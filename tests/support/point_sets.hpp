@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/point_sets.hpp
-/// \brief The points that the tests of both trees share, and a brute-force search.
+/// \brief Sets of points for the tests of both k-d trees, and a search by brute force.
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +24,11 @@ using Points = std::vector<Vec3T<T>>;
 template <typename T>
 struct PointSet {
     std::string name;
-    double size = 1; ///< Half the side of what holds the points.
+    double size = 1; ///< Half the side of a cube that contains the points.
     Points<T> points;
 };
 
-/// Sets as photons make them, and sets that can break trees.
+/// Sets that resemble photons, and difficult sets.
 template <typename T>
 std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     Draws numbers{n * 7 + 1};
@@ -56,7 +56,7 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     }));
     sets.push_back(make("identical", [&](auto) { return D{0.5, -0.25, 0.125}; }));
     sets.push_back(make("collinear", [&](std::size_t i) {
-        return D{1, 1, 1} * (double(i) / double(n)); // sorted, too
+        return D{1, 1, 1} * (double(i) / double(n)); // on a line, and sorted
     }));
     sets.push_back(make("along an axis, backwards", [&](std::size_t i) {
         return D{0, 1 - double(i) / double(n), 0};
@@ -71,8 +71,8 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     return sets;
 }
 
-/// The squared distance, as the tree defines it: in double, with fused sums where the
-/// machine has them.
+/// The squared distance as the tree computes it: in double, with fused multiply-add on
+/// machines that have it.
 template <typename T>
 double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
     const double x = double(a.x) - double(b.x), y = double(a.y) - double(b.y),
@@ -85,7 +85,7 @@ double distance2(const Vec3T<T>& a, const Vec3T<T>& b) {
 #endif
 }
 
-/// All points of a closed ball, nearest first, by brute force.
+/// All points within a closed ball, nearest first, found by brute force.
 template <typename Tree, typename T, typename Wanted>
 std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T radius,
                                   Wanted wanted) {
@@ -100,8 +100,7 @@ std::vector<Neighbor> brute_force(const Tree& tree, const Vec3T<T>& center, T ra
     return found;
 }
 
-/// Every search of a tree over a set of points, at many centres, against all points in
-/// turn.
+/// Compares every kind of search in a tree with brute force, at many centres.
 template <typename Tree, typename T>
 void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
     CAPTURE(set.name);
@@ -109,7 +108,7 @@ void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
     const std::size_t n = set.points.size();
     constexpr T infinity = std::numeric_limits<T>::infinity();
     for (int i = 0; i < 12; ++i) {
-        // At a point, near one, anywhere, far away.
+        // Centres at a point, near a point, anywhere, and far away.
         Vec3T<T> center = Vec3T<T>{numbers.point<double>(1.2 * set.size)};
         if (n > 0 && i % 4 < 2) {
             center = set.points[static_cast<std::size_t>(numbers.below(int(n)))];
@@ -119,7 +118,7 @@ void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
         T radius = T(set.size * std::pow(10.0, -numbers.between(-0.5, 4)));
         if (i == 3) radius = 0;
         if (i == 7) radius = infinity;
-        if (n > 0 && i % 3 == 0) { // just through a point, or as near as T comes
+        if (n > 0 && i % 3 == 0) { // the radius ends at a point
             const auto& edge =
                 set.points[static_cast<std::size_t>(numbers.below(int(n)))];
             radius = T(std::sqrt(distance2(edge, center)));

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/quick_ball.hpp
-/// \brief A user's shape that counts the calls of its any-hit test.
+/// \brief A shape of a user that counts the calls of its any-hit test.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace reader {
 
-/// A ball with an any-hit test of its own, which counts its calls.
+/// A ball with its own any-hit test, which counts how often it is called.
 struct Quick {
     ljus::Sphere ball{};
     int* asked = nullptr;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/random_scene.hpp
-/// \brief Random scenes: shapes, materials and lights from the library's closed lists.
+/// \brief Makes random scenes of the shapes, materials and lights of the library.
 
 #include <cmath>
 #include <string>
@@ -47,30 +47,30 @@ using RandomScene = ljus::Scene<
     ljus::Lights<ljus::PointLight, ljus::SpotLight, ljus::SunLight,
                  ljus::EnvironmentLight>>;
 
-/// A drawn scene.
+/// A random scene with its properties.
 struct DrawnScene {
     ljus::World<RandomScene> world;
     ljus::Camera camera{};
-    std::string what{};    ///< Its parts, in words.
-    bool specular = false; ///< Whether something mirrors or refracts.
-    bool glossy = false;   ///< Whether something is glossy.
-    bool sharp = false;    ///< Whether some gloss is nearly a mirror.
+    std::string what{};    ///< The parts of the scene, in words.
+    bool specular = false; ///< Whether a material is specular.
+    bool glossy = false;   ///< Whether a material is glossy.
+    bool sharp = false;    ///< Whether a material is nearly specular.
     bool point = false;    ///< Whether a light has no area.
-    bool open = false;     ///< Whether light leaves it.
-    bool merges = true;    ///< Whether vertex merging does not refuse it.
+    bool open = false;     ///< Whether light can leave the scene.
+    bool merges = true;    ///< Whether vertex merging accepts the scene.
 };
 
-/// Draws scenes. Objects touch neither each other nor a wall. A path tracer finds no
-/// caustic of a light without an area, so that no scene has such a light together with
-/// a specular or nearly specular material; and the lamps beside specular materials are
-/// large enough that its paths meet them.
+/// Makes random scenes. Objects touch neither each other nor a wall. A path tracer
+/// cannot find caustics of a light without an area. No scene therefore has such a light
+/// together with a specular or nearly specular material. In scenes with specular
+/// materials the lamps are large enough for paths to meet them.
 class SceneDrawer {
 public:
     explicit SceneDrawer(std::uint64_t seed) : draws_{seed} {
         for (int i = 0; i < 4; ++i) (void)draws_.bits();
     }
 
-    /// The scene of the seed.
+    /// Makes the scene of the seed.
     DrawnScene draw() {
         const int place = draws_.below(6); // 0 to 3: a room, 4: a corridor, 5: a floor
         open_ = place == 5;
@@ -169,7 +169,7 @@ private:
     }
 
     /// A specular material, or a mixture with a specular lobe.
-    /// \param solid  Whether the shape is closed, so that something can be inside.
+    /// \param solid  Whether the shape is closed, so that it can contain a medium.
     Id specular(bool solid) {
         specular_ = true;
         switch (draws_.below(solid ? 7 : 4)) {
@@ -269,7 +269,8 @@ private:
     }
 
     void object(int cell, float length) {
-        const float reach = draws_.between(0.22f, 0.36f); // of its bounding sphere
+        const float reach = draws_.between(0.22f, 0.36f); // radius of the bounding
+                                                          // sphere
         const float high = draws_.between(-0.98f + reach, -0.3f);
         const V center{cell % 2 == 0 ? -0.45f : 0.45f, high,
                        (cell / 2 == 0 ? -0.5f : 0.25f) * length};
@@ -340,7 +341,7 @@ private:
             for (const ljus::Disc& end : ljus::ends_of(tube)) scene_.add(end, material);
             break;
         }
-        case 10: { // turned, stretched, and now and then mirrored
+        case 10: { // turned, stretched, sometimes mirrored
             say("instance");
             const V u = draws_.direction<float>();
             const V v = glm::normalize(glm::cross(u, draws_.direction<float>()));

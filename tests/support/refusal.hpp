@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/refusal.hpp
-/// \brief The sentences with which calls are refused.
+/// \brief The messages with which calls are refused.
 
 #include <concepts>
 #include <stdexcept>
@@ -11,7 +11,7 @@
 
 namespace ljus_test {
 
-/// The sentence with which a call is refused; empty if it is not.
+/// The message with which a call is refused; empty if the call succeeds.
 template <std::invocable Call>
 std::string refusal(Call call) {
     try {
@@ -22,7 +22,8 @@ std::string refusal(Call call) {
     return "";
 }
 
-/// Why a call cannot read a file, behind "cannot read 'a.pfm': "; "loaded" if it can.
+/// The reason why a call cannot read a file, without "cannot read 'a.pfm': "; "loaded"
+/// if it can.
 template <std::invocable Load>
 std::string why_not_read(const std::string& path, Load load) {
     try {

@@ -17,7 +17,7 @@
 
 namespace ljus_test {
 
-/// All shapes and materials that a room may be made of.
+/// The scene type of the rooms, with all shapes and materials that they use.
 template <typename T>
 using BallRoomT =
     ljus::Scene<ljus::Shapes<ljus::SphereT<T>, ljus::QuadT<T>>,
@@ -25,13 +25,13 @@ using BallRoomT =
                                 ljus::MirrorT<T>, ljus::GlassT<T>, ljus::MixtureT<T>>,
                 ljus::Lights<ljus::PointLightT<T>>>;
 using BallRoom = BallRoomT<float>;
-/// The world of such a scene.
+/// The world of that scene type.
 template <typename T>
 using ClosedRoomT = ljus::World<BallRoomT<T>>;
 using ClosedRoom = ClosedRoomT<float>;
 
-/// The six walls of [-1, 1]^3, both sides matt; the left one is red, the right one
-/// green.
+/// Adds the six walls of [-1, 1]^3, which are matt on both sides. The left wall is red,
+/// and the right wall is green.
 template <typename T>
 void add_walls(BallRoomT<T>& room, T albedo = T(0.5)) {
     using V = ljus::Vec3T<T>;
@@ -53,7 +53,7 @@ enum class Ball { lambertian, oren_nayar, mirror, glass, mixture };
 /// The kind of light in the room.
 enum class Lamp { quad, sphere, point };
 
-/// What the ball is made of, for a test's messages.
+/// The material of the ball as a word, for the messages of tests.
 inline const char* name(Ball ball) {
     switch (ball) {
     case Ball::lambertian:
@@ -69,12 +69,12 @@ inline const char* name(Ball ball) {
     }
     return "";
 }
-/// The shape of the lamps, for a test's messages.
+/// The kind of light as a word, for the messages of tests.
 inline const char* name(Lamp lamp) {
     return lamp == Lamp::quad ? "quad" : lamp == Lamp::sphere ? "sphere" : "point";
 }
 
-/// A ball near the middle of the room, above the floor.
+/// Adds a ball near the middle of the room, above the floor.
 template <typename T>
 void add_ball(BallRoomT<T>& room, Ball ball) {
     using C = ljus::RgbT<T>;
@@ -108,8 +108,8 @@ void add_ball(BallRoomT<T>& room, Ball ball) {
              material);
 }
 
-/// One light, or two of different size, colour and position; none is in view of
-/// room_camera().
+/// Adds one light, or two of different size, colour and position. room_camera() sees
+/// none of them.
 template <typename T>
 void add_lamps(BallRoomT<T>& room, Lamp lamp, int count) {
     using V = ljus::Vec3T<T>;
@@ -133,7 +133,7 @@ void add_lamps(BallRoomT<T>& room, Lamp lamp, int count) {
     if (count == 2) add(V{T(0.6), T(0.9), T(0.6)}, T(0.3), C{T(1), T(3), T(8)});
 }
 
-/// A room of the matrix, closed.
+/// The closed world of a room with a ball and lights.
 template <typename T>
 ClosedRoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
     BallRoomT<T> room;
@@ -143,7 +143,7 @@ ClosedRoomT<T> make_room(Ball ball, Lamp lamp, int lamps) {
     return ClosedRoomT<T>(std::move(room));
 }
 
-/// A camera at the front wall that looks down.
+/// A camera at the front wall that looks downwards.
 template <typename T>
 ljus::CameraT<T> room_camera() {
     return ljus::look_at(ljus::ViewT<T>{.position{T(0), T(0.25), T(0.97)},

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/rooms_core.hpp
-/// \brief What is compiled once for all tests with a room, as ljus/core.hpp is for all
-/// programs: rooms.cpp instantiates this list.
+/// \brief A list of templates that rooms.cpp instantiates once for all tests with a
+/// room, like ljus/core.hpp for programs.
 
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/path_tracing.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file support/scene_page.hpp
-/// \brief The tables by which load_json() reads, in the form that people read: the
-/// reference part of chapters/scene_files.md.
+/// \brief Writes the tables of load_json() as Markdown: the reference part of
+/// chapters/scene_files.md.
 
 #include <map>
 #include <string>
@@ -13,7 +13,8 @@ namespace ljus_test {
 
 using namespace ljus::detail;
 
-/// An object with its needed members and those of an example, as JSON on one line.
+/// An example of an object, with all required members and those that have an example,
+/// as JSON on one line.
 inline std::string example_of(const JsonTable& table, JsonMembers shared) {
     std::string text =
         table.name.empty() ? "" : join({"\"type\": \"", table.name, "\""});
@@ -40,7 +41,8 @@ inline std::string code_lines(std::string_view example) {
     return code + "\n";
 }
 
-/// What a value may be, in words; the page explains colour, point and direction.
+/// The allowed values of a member, in words. The page explains colour, point and
+/// direction.
 inline std::string value_text(const JsonValue& value) {
     const auto with = [&](std::string_view kind) {
         return value.right.empty() ? std::string(kind) : join({kind, " ", value.right});
@@ -81,7 +83,7 @@ inline std::string value_text(const JsonValue& value) {
     return "object";
 }
 
-/// The rows of a table for people.
+/// The rows of a table, in Markdown.
 inline std::string member_rows(JsonMembers members) {
     std::string text = "| member | value | default | what it is |\n|---|---|---|---|\n";
     for (const JsonMember& row : members) {
@@ -98,15 +100,15 @@ inline std::string member_rows(JsonMembers members) {
     return text;
 }
 
-/// The same tables in Markdown, each with an example. A type that has the members of
-/// an earlier one refers to it.
+/// All tables in Markdown, each with an example. A type with the same members as an
+/// earlier type refers to that type.
 inline std::string scene_tables() {
     std::string page;
     for (const JsonGroup& group : scene_groups()) {
         page += join({"## ", group.heading, " {#ch_scene_files_", group.name, "}\n\n",
                       group.text, "\n\n"});
         if (!group.shared.empty()) page += member_rows(group.shared) + "\n";
-        std::map<std::string, std::string_view> first; // of the types with these rows
+        std::map<std::string, std::string_view> first; // the first type with these rows
         for (const JsonTable& table : group.tables) {
             if (!table.name.empty())
                 page += join({"### `", table.name, "`",

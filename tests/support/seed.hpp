@@ -1,19 +1,20 @@
 #pragma once
 
 /// \file support/seed.hpp
-/// \brief Other seeds for statistical tests, on request.
+/// \brief Changes the seeds of statistical tests on request.
 
 #include <cstdint>
 #include <cstdlib>
 
 namespace ljus_test {
 
-/// The seed of a statistical test: itself, or another one for each number that the
-/// environment variable LJUS_TEST_SEED holds. See `./scripts/test --seeds 20`.
+/// The seed of a statistical test. It is `seed` itself, unless the environment variable
+/// LJUS_TEST_SEED holds a number, which selects another seed. See `./scripts/test
+/// --seeds 20`.
 inline std::uint64_t test_seed(std::uint64_t seed) {
     static const char* const text = std::getenv("LJUS_TEST_SEED");
     const std::uint64_t other = text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
-    // Far from each other, and odd steps, so that no two tests meet.
+    // Large odd steps, so that no two tests get the same seed.
     return seed + other * 0xd1342543de82ef95ull;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
 /// \file support/shown.hpp
-/// \brief How a failed check prints vectors, colours and results that may be missing.
+/// \brief Lets a failed check print vectors, colours and optional results.
 ///
-/// Each test has it included by tests/CMakeLists.txt; doctest alone prints {?}.
+/// tests/CMakeLists.txt includes this header in each test. Without it doctest prints
+/// {?}.
 
 #include <optional>
 
@@ -12,7 +13,7 @@
 
 namespace doctest {
 
-/// (1, 2, 3)
+/// Prints a vector as (1, 2, 3).
 template <glm::length_t size, typename T, glm::qualifier Q>
 struct StringMaker<glm::vec<size, T, Q>> {
     static String convert(const glm::vec<size, T, Q>& v) {
@@ -23,7 +24,8 @@ struct StringMaker<glm::vec<size, T, Q>> {
     }
 };
 
-/// The value, or "nothing"; a value that cannot be printed is {?}.
+/// Prints the value of an optional, or "nothing". A value that cannot be printed is
+/// {?}.
 template <typename T>
 struct StringMaker<std::optional<T>> {
     static String convert(const std::optional<T>& value) {

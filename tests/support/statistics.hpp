@@ -10,10 +10,11 @@
 
 namespace ljus_test {
 
-/// The running mean of numbers, and its standard error (Welford).
+/// The mean of numbers that are added one by one, and its standard error, by Welford's
+/// method.
 struct Mean {
     double count = 0;   ///< The number of values.
-    double mean = 0;    ///< Their mean.
+    double mean = 0;    ///< The mean of the values.
     double squares = 0; ///< Sum of the squared distances from the mean.
 
     /// Adds a value.
@@ -24,7 +25,7 @@ struct Mean {
         squares += from_old * (x - mean);
     }
 
-    /// Of the numbers.
+    /// The variance of one value.
     [[nodiscard]] double variance() const { return squares / (count - 1); }
 
     /// The standard error of the mean.
@@ -32,15 +33,17 @@ struct Mean {
         return count < 2 ? 0 : std::sqrt(variance() / count);
     }
 
-    /// By how many standard errors the mean is off. Where all numbers are equal up to
-    /// rounding the error is 0, so `rounding` (relative) is allowed for.
+    /// The distance of the mean from the truth in standard errors. For numbers that are
+    /// equal up to rounding the standard error is 0; a relative error of `rounding` is
+    /// therefore added to it.
     [[nodiscard]] double sigmas(double truth, double rounding = 1e-5) const {
         const double allowed = std::hypot(error(), rounding * truth);
         return mean == truth ? 0 : (mean - truth) / allowed;
     }
 
-    /// Within 5 standard errors: a false alarm once in 1.7 million; and within a small
-    /// part besides, for a sample that hardly scatters.
+    /// Whether the mean is within 5 standard errors of the truth, which gives one false
+    /// alarm in 1.7 million. A small relative error is allowed in addition, for numbers
+    /// that hardly scatter.
     [[nodiscard]] bool agrees_with(double truth, double relative = 1e-6) const {
         return std::abs(mean - truth) <= 5 * error() + relative * std::abs(truth);
     }
@@ -57,8 +60,9 @@ inline double apart(const Mean& a, double truth, double rounding = 1e-6) {
     return a.sigmas(truth, rounding);
 }
 
-/// The allowed deviation of the farthest of several means, in standard errors: one run
-/// in 1000 of a correct test exceeds it (Bonferroni, with the normal distribution).
+/// The allowed deviation of the worst of several means, in standard errors. One run in
+/// 1000 of a correct test exceeds it, by Bonferroni's bound and the normal
+/// distribution.
 inline double limit_of(int checks) {
     double low = 0, high = 10;
     for (int step = 0; step < 60; ++step) {
@@ -71,16 +75,17 @@ inline double limit_of(int checks) {
 /// The value that a normal variable exceeds once in a million.
 inline constexpr double once_in_a_million = 4.7534;
 
-/// The value that a chi-square variable with `freedom` degrees exceeds as rarely as a
-/// normal one exceeds z: 3.09 is once in 1000, 5 is 3 times in 10 million (Wilson and
-/// Hilferty's cube, good to a few percent of that probability from 10 degrees on).
+/// The value that a chi-square variable with `freedom` degrees of freedom exceeds as
+/// rarely as a normal variable exceeds z. For z = 3.09 this is once in 1000, and for z
+/// = 5 it is 3 times in 10 million. Wilson and Hilferty's formula is used. From 10
+/// degrees of freedom on, its probability is right to a few percent.
 inline double chi_square_limit(double freedom, double z = once_in_a_million) {
     const double a = 2 / (9 * freedom);
     const double root = 1 - a + z * std::sqrt(a);
     return freedom * root * root * root;
 }
 
-/// Pearson's sum over cells that should all hold the same count.
+/// Pearson's chi-square sum over cells that should all have the same count.
 template <typename Counts>
 double chi_square(const Counts& counts) {
     double sum = 0;
@@ -94,9 +99,9 @@ double chi_square(const Counts& counts) {
     return result;
 }
 
-/// Pearson's sum over cells with different expected counts.
+/// Pearson's chi-square sum over cells with different expected counts.
 struct ChiSquare {
-    double sum = 0; ///< Infinite if a cell that must be empty is not.
+    double sum = 0; ///< The sum; infinite if a cell that must be empty is not.
     int cells = 0;  ///< Number of cells.
 
     /// The limit of the sum; see chi_square_limit().
@@ -105,8 +110,8 @@ struct ChiSquare {
     }
 };
 
-/// The sum for counts and what is expected; cells that expect fewer than 8 are joined
-/// into one.
+/// Pearson's sum for counts and expected counts. Cells with an expected count below 8
+/// are joined into one cell.
 inline ChiSquare chi_square(std::span<const double> counts,
                             std::span<const double> expected) {
     ChiSquare result;
@@ -130,12 +135,12 @@ inline ChiSquare chi_square(std::span<const double> counts,
     return result;
 }
 
-/// Whether counts agree with expected ones, with the false-alarm rate of `z`: see
-/// chi_square_limit().
+/// Whether counts agree with expected counts. The rate of false alarms is that of `z`
+/// in chi_square_limit().
 inline bool chi_square_agrees(std::span<const double> counts,
                               std::span<const double> expected, double z) {
     const ChiSquare found = chi_square(counts, expected);
-    if (found.cells < 2) return found.sum < 1e-9; // a single cell is not random
+    if (found.cells < 2) return found.sum < 1e-9; // one cell is not random
     return found.sum <= found.limit(z);
 }
 

@@ -18,7 +18,7 @@ namespace ljus_test {
 
 using ljus::Vec3;
 
-/// Every search gives the same as brute force.
+/// Checks that every search gives the same results as brute force.
 template <template <typename> typename Tree>
 void every_search() {
     Draws numbers{5};
@@ -31,7 +31,7 @@ void every_search() {
             }
 }
 
-/// Also in double, and far from the origin.
+/// Checks searches in double, and far from the origin.
 template <template <typename> typename Tree>
 void in_double() {
     Draws numbers{6};
@@ -39,7 +39,7 @@ void in_double() {
         for (const double size : {1e-18, 1.0, 1e18})
             for (const auto& set : point_sets<double>(n, size, 0))
                 compare_with_brute_force<Tree<double>>(set, numbers);
-        // At a million, a float has four bits left after the binary point.
+        // Near a million a float has four bits after the binary point.
         for (const auto& set : point_sets<float>(n, 1, 1e6))
             compare_with_brute_force<Tree<float>>(set, numbers);
         for (const auto& set : point_sets<double>(n, 1, 1e6))
@@ -47,7 +47,7 @@ void in_double() {
     }
 }
 
-/// Ten thousand points at once.
+/// Checks searches among ten thousand points.
 template <template <typename> typename Tree>
 void ten_thousand() {
     Draws numbers{7};
@@ -55,7 +55,7 @@ void ten_thousand() {
         compare_with_brute_force<Tree<float>>(set, numbers);
 }
 
-/// The ball is exactly closed, and it is not a cube.
+/// Checks that a search finds exactly the points of a closed ball.
 template <template <typename> typename Tree>
 void closed_ball() {
     // Whole numbers: squares and their sums are exact, and 3, 4, 5 make a right angle.
@@ -71,7 +71,7 @@ void closed_ball() {
         for (int x = -6; x <= 6; ++x)
             for (int y = -6; y <= 6; ++y)
                 for (int z = -6; z <= 6; ++z)
-                    // A root that was rounded down does not reach its points.
+                    // A radius that was rounded down does not reach its points.
                     if (double(x * x + y * y + z * z) <=
                         double(radius) * double(radius))
                         ++expected;
@@ -84,13 +84,13 @@ void closed_ball() {
         tree.visit_within(Vec3{0}, radius, [&](std::uint32_t, double) { ++found; });
         return found;
     };
-    CHECK(count(1) == 7); // the cube would hold 27
+    CHECK(count(1) == 7); // a cube would contain 27
     CHECK(count(std::nextafter(1.0f, 0.0f)) == 1);
     CHECK(count(5) == 515); // lattice points of the ball of radius 5; the cube has 1331
     CHECK(count(std::nextafter(5.0f, 0.0f)) == 515 - 30);
 }
 
-/// A ball without an inside finds nothing, NaN finds nothing.
+/// Checks that an empty ball, and NaN, find nothing.
 template <template <typename> typename Tree>
 void no_inside() {
     const Points<float> points{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
@@ -109,12 +109,13 @@ void no_inside() {
     CHECK(count({0, 0, 0}, nan) == 0);
     CHECK(count({nan, 0, 0}, 1.0f) == 0);
     CHECK(count({0, nan, 0}, std::numeric_limits<float>::infinity()) == 0);
-    CHECK(tree.nearest(Vec3{0}, 1.0f, {}, [](auto) { return true; }) == 0); // no room
+    // no space for results
+    CHECK(tree.nearest(Vec3{0}, 1.0f, {}, [](auto) { return true; }) == 0);
     CHECK(Tree<float>{}.nearest(Vec3{0}, 1.0f, room, [](auto) { return true; }) == 0);
     CHECK(Tree<float>{}.size() == 0);
 }
 
-/// A point that is not finite is refused with a sentence.
+/// Checks that a point that is not finite is refused, with a message.
 template <template <typename> typename Tree>
 void not_finite() {
     constexpr float inf = std::numeric_limits<float>::infinity();
@@ -131,7 +132,7 @@ void not_finite() {
                       "finite in every component.");
 }
 
-/// The largest numbers of a float do not overflow.
+/// Checks that the largest floats do not overflow.
 template <template <typename> typename Tree>
 void largest_numbers() {
     constexpr float max = std::numeric_limits<float>::max();
@@ -145,7 +146,7 @@ void largest_numbers() {
     CHECK(room[0].distance2 == doctest::Approx(12 * double(max) * double(max)));
 }
 
-/// point_ids() gives the original index of each point.
+/// Checks that point_ids() gives the original index of each point.
 template <template <typename> typename Tree>
 void order_of_points() {
     for (const auto& set : point_sets<float>(1000, 1, 0)) {
@@ -162,7 +163,7 @@ void order_of_points() {
     }
 }
 
-/// Trees are values.
+/// Checks that trees can be copied and moved.
 template <template <typename> typename Tree>
 void values() {
     const auto set = point_sets<float>(300, 1, 0)[0];
@@ -186,7 +187,7 @@ void values() {
     CHECK(std::equal(ids.begin(), ids.end(), copy.point_ids().begin()));
 }
 
-/// Searches on many threads find the same.
+/// Checks that searches by several threads give the same results.
 template <template <typename> typename Tree>
 void many_threads() {
     const auto set = point_sets<float>(20000, 1, 0)[1];

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file support/triangle_soups.hpp
-/// \brief Loose triangles, rays of any kind, and the expected hits.
+/// \brief Unconnected triangles, rays of all kinds, and the expected hits.
 
 #include <cstdint>
 #include <limits>
@@ -25,7 +25,8 @@ inline std::vector<Box> boxes_of(const Triangles& triangles) {
     return boxes;
 }
 
-/// The expected hit: the nearest; of equal ones, the first.
+/// The expected hit: the nearest one, and among equally near ones that of the first
+/// triangle.
 struct Found {
     std::uint32_t number = ~0u;
     float t = std::numeric_limits<float>::infinity(), u = 0, v = 0;
@@ -41,7 +42,7 @@ inline Found by_loop(const Triangles& triangles, const Ray& ray) {
     return found;
 }
 
-/// The triangle at a slot: the tree's own copy if it has one.
+/// The triangle at a slot of a tree, from the tree's own copy if it has one.
 template <typename Tree>
 Triangle triangle_at(const Tree& tree, const Triangles& triangles, std::uint32_t slot) {
     if constexpr (requires { tree.triangle(slot); })
@@ -79,7 +80,7 @@ inline Triangles soup(Numbers& n, int count, double room, double size,
     return triangles;
 }
 
-/// Triangles of a scale that break trees: 64 equal ones, some in the plane x = 0, and
+/// Difficult triangles of a given scale: 64 equal ones, some in the plane x = 0, and
 /// some without an area.
 inline Triangles hard_soup(Numbers& n, double scale) {
     Triangles triangles = soup(n, 100, 5 * scale, scale, Vec3{0});
@@ -94,7 +95,8 @@ inline Triangles hard_soup(Numbers& n, double scale) {
     return triangles;
 }
 
-/// A ray of any kind: axis-parallel, with zeros of both signs, short, backwards.
+/// A random ray of some kind: parallel to an axis or nearly so, with zeros of both
+/// signs, or with a limited range of distances.
 inline Ray some_ray(Numbers& n, double room, const Vec3& place) {
     const Vec3 origin = place + Vec3(n.point(2 * room));
     Ray ray{.origin = origin, .direction = place + Vec3(n.point(room)) - origin};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 1: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 1: yours to write. The file compiles, but every test fails.
 
 #include <cmath>
 #include <optional>
@@ -12,8 +12,9 @@
 namespace answer {
 
 // [asked]
-// The ray from the eye through a point of the picture, its direction of length 1.
-// `pixel` counts from the upper left corner: x to width, y downwards to height.
+// The ray from the eye through a point of the picture, with a direction of length 1.
+// `pixel` is measured from the upper left corner: x to the right up to width, y
+// downwards up to height.
 inline Ray primary_ray(const Eye& eye, Vec2 pixel, int width, int height) {
     return {};
 }
@@ -24,18 +25,19 @@ inline std::optional<float> intersect(const Ray& ray, const Ball& ball) {
     return std::nullopt;
 }
 
-// The normal of a ball at a point of it: length 1, away from the centre.
+// The normal of a ball at one of its points: of length 1, away from the centre.
 inline Vec3 normal(const Ball& ball, const Vec3& point) {
     return Vec3{0};
 }
 
-// The first of all balls that the ray meets.
+// The first ball that the ray meets.
 inline std::optional<Hit> nearest(const Ray& ray, const std::vector<Ball>& balls) {
     return std::nullopt;
 }
 
 // Whether a point of a surface with this normal sees the lamp: the lamp is on the side
-// of the normal, and no ball is between. The surface itself must not be in the way.
+// of the normal, and no ball lies between them. The surface itself must not hide the
+// lamp.
 inline bool sees(const std::vector<Ball>& balls, const Vec3& point, const Vec3& normal,
                  const Vec3& lamp) {
     return false;

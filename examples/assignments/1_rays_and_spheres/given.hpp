@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file given.hpp
-/// \brief Assignment 1, given: what a ball is, and what a ray that meets one reports.
+/// \brief Given in assignment 1: a ball, the eye, and the hit of a ray.
 
 #include <cstddef>
 
@@ -21,10 +21,11 @@ struct Ball {
 /// The eye looks along -z; x points to the right of the picture and y to its top.
 struct Eye {
     Vec3 position{0};
-    float vfov_degrees = 40; ///< From the lower edge of the picture to the upper one.
+    float vfov_degrees = 40; ///< Angle of view from the lower to the upper edge of the
+                             ///< picture.
 };
 
-/// Which of several balls a ray met, and where.
+/// The hit of a ray on one of several balls: the distance, and the number of the ball.
 struct Hit {
     float t = 0;
     std::size_t ball = 0;

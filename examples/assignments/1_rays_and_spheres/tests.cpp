@@ -1,5 +1,5 @@
-// Assignment 1: a test is a sentence that must hold. Points stand in its name.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 1: each test is a sentence that must hold. Its name states its points.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using ljus::next_1d;
@@ -24,7 +24,7 @@ Vec3 random_point(ljus::RandomStream& stream, float size) {
     return size * (2.0f * Vec3{x, y, next_1d(stream)} - 1.0f);
 }
 
-/// The squared distance of a ball's centre from the line of a ray, in double.
+/// The squared distance from the centre of a ball to the line of a ray, in double.
 double off_line(const Ray& ray, const Ball& ball) {
     const auto d = normalize(wide(ray.direction));
     const auto across = cross(wide(ball.center) - wide(ray.origin), d);
@@ -115,7 +115,7 @@ TEST_CASE("1.6 (3 points) random rays hit what they should and end on the ball")
         const auto out = wide(ray.origin) - wide(ball.center);
         const bool outside = dot(out, out) > r2;
         const bool ahead = dot(out, wide(ray.direction)) < 0;
-        if (std::abs(off - 1) < 1e-4) continue; // it grazes: rounding decides
+        if (std::abs(off - 1) < 1e-4) continue; // grazing: rounding decides
         const auto t = intersect(ray, ball);
         REQUIRE(t.has_value() == (off < 1 && (!outside || ahead)));
         if (!t) continue;
@@ -144,7 +144,7 @@ TEST_CASE("1.7 (3 points) a ball 1000 radii away keeps its outline") {
         wrong += hit != (off_line(ray, ball) < 1);
     }
     CHECK(hits > 1000);
-    CHECK(wrong <= 20); // 0.5 %; with b^2 - c in float it is several times as much
+    CHECK(wrong <= 20); // 0.5 %; b^2 - c in float gives several times as many
 }
 
 TEST_CASE("1.8 (1 point) the normal has length 1 and points away from the centre") {
@@ -186,7 +186,7 @@ TEST_CASE("1.10 (2 points) a lamp is seen unless a ball is between or the horizo
     CHECK_FALSE(sees(balls, {0, 1, 0}, {0, 1, 0}, {0, 9, 0})); // behind it
     CHECK_FALSE(sees(balls, {0, 1, 0}, {0, 1, 0}, {5, 0.5f, 0})); // below the horizon
     CHECK(sees(balls, {1, 0, 0}, {1, 0, 0}, {5, 0, 0}));
-    // On a plane, where no ball hides what is below the horizon.
+    // A plane, without a ball that hides lamps below the horizon.
     CHECK_FALSE(sees({}, {0, 0, 0}, {0, 1, 0}, {3, -1, 0}));
     CHECK(sees({}, {0, 0, 0}, {0, 1, 0}, {3, 1, 0}));
 }
@@ -210,7 +210,7 @@ TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
         }
         CAPTURE(scale);
         CHECK(wrong == 0);
-        int hidden = 0; // of lamps that stand barely above the horizon
+        int hidden = 0; // of lamps barely above the horizon
         for (int i = 0; i < 500; ++i) {
             const Ball ball{.center = scale * Vec3{3, 1, -6}, .radius = scale};
             const Vec3 n = normalize(random_point(stream, 1));
@@ -220,8 +220,8 @@ TEST_CASE("1.11 (3 points) no ball shades itself whatever the unit of length") {
             hidden += !sees({ball}, point, n, lamp);
         }
         CHECK(hidden == 0);
-        // From the top of one ball towards a lamp behind another one that nearly
-        // touches it, at a fiftieth of a radius; and to a lamp between the two.
+        // Two balls are a fiftieth of a radius apart. From the top of one, a lamp
+        // behind the other is hidden, and a lamp between the two is visible.
         const Ball below{.center = scale * Vec3{3, 1, -6}, .radius = scale};
         const Ball above{.center = scale * Vec3{3, 3.02f, -6}, .radius = scale};
         const Vec3 top = scale * Vec3{3, 2, -6}, up{0, 1, 0};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 2: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 2: yours to write. The file compiles, but every test fails.
 
 #include <cmath>
 #include <numbers>
@@ -16,35 +16,36 @@ using course::Kind, course::Matter, course::Object, course::PointLamp, course::R
 using ljus::Ray, ljus::Rgb, ljus::Vec3;
 
 // [asked]
-// The direction of a ray behind a mirror. `direction` travels towards the surface; it
-// and the normal have length 1, and the normal may be on either side.
+// The direction of a ray after a mirror. `direction` points towards the surface. Both
+// vectors have length 1. The normal may be on either side.
 inline Vec3 reflect(const Vec3& direction, const Vec3& normal) {
     return Vec3{0};
 }
 
-// The direction behind a boundary; nothing under total internal reflection. The normal
-// may be on either side; eta is n_1/n_2, the index where the ray comes from over the
-// index where it goes.
+// The direction of a ray after refraction at a boundary; nothing under total internal
+// reflection. The normal may be on either side. The ratio eta is n_1/n_2, where the ray
+// comes from the side with index n_1.
 inline std::optional<Vec3> refract(const Vec3& direction, const Vec3& normal,
                                    float eta) {
     return std::nullopt;
 }
 
-// The share of the light that a boundary reflects, without polarisation. `cosine` is
-// that of the angle between ray and normal, in [0, 1], where the index is n_1.
+// The fraction of unpolarised light that a boundary reflects. `cosine` is the cosine of
+// the angle between ray and normal on the side of index n_1, in [0, 1].
 inline float fresnel(float cosine, float n_1, float n_2) {
     return 0;
 }
 
-// What the lamps of the room make a diffuse surface send to where the ray comes from:
-// all lamps, none of them through another object.
+// The radiance of the lamps' light that a diffuse surface reflects to the origin of the
+// ray. All lamps count that no object hides.
 inline Rgb diffuse_light(const Room& room, const Surface& surface, const Ray& ray) {
     return Rgb{0};
 }
 
-// What a ray sees: the sky, diffuse objects by diffuse_light(), and behind mirrors and
-// glass what further rays see. A ray has `depth` more surfaces of mirror or glass to
-// meet; when they are used up it sees nothing, which is black.
+// The radiance that arrives along a ray. Diffuse objects have that of diffuse_light(),
+// and a ray that meets nothing has that of the sky. At mirrors and glass further rays
+// are followed. A ray may meet at most `depth` surfaces of mirror or glass; after these
+// it is black.
 inline Rgb radiance(const Room& room, const Ray& ray, int depth) {
     return Rgb{0};
 }

@@ -1,13 +1,13 @@
-// Assignment 2: a test is a sentence that must hold. Points stand in its name. Nothing
-// here is left to chance: all comparisons are with closed forms.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 2: each test is a sentence that must hold. Its name states its points. All
+// comparisons are with closed forms, without random numbers.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 
@@ -73,7 +73,7 @@ TEST_CASE("2.4 (3 points) Fresnel's share is right at the angles that one knows"
          "Read: Fresnel; the chapter Fresnel.");
     CHECK(fresnel(1, 1, 1.5f) == doctest::Approx(0.04));
     CHECK(fresnel(1e-4f, 1, 1.5f) > 0.99f);
-    const double brewster = std::atan(1.5); // one polarisation is not reflected at all
+    const double brewster = std::atan(1.5); // one polarisation is not reflected
     const double ratio = (1 - 1.5 * 1.5) / (1 + 1.5 * 1.5);
     CHECK(fresnel(float(std::cos(brewster)), 1, 1.5f) ==
           doctest::Approx(ratio * ratio / 2).epsilon(1e-4));
@@ -134,9 +134,9 @@ TEST_CASE("2.8 (2 points) a mirror shows what lies behind it in its colour") {
          "Read: The tree; the chapter Whitted's ray tracing.");
     const Room room{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {Kind::mirror, Rgb{0.5f}}},
                              {ljus::Sphere{{5, 0, 1}, 1}, {.color = Rgb{1}}}},
-                    .lamps{{{2, 0, 1}, Rgb{4}}}, // at distance 2 of the diffuse ball
+                    .lamps{{{2, 0, 1}, Rgb{4}}}, // at distance 2 from the diffuse ball
                     .sky = Rgb{3}};
-    // It meets the mirror at 45 degrees, and is turned towards the diffuse ball.
+    // The ray meets the mirror at 45 degrees, and is reflected to the diffuse ball.
     const float h = std::sqrt(0.5f);
     const Ray ray{.origin{h, 0, 5}, .direction{0, 0, -1}};
     const Rgb seen = radiance(room, ray, 2);
@@ -167,8 +167,9 @@ TEST_CASE("2.10 (3 points) glass shows what it lets through and what it throws b
          "for every glass.\n"
          "Read: Fresnel; The tree.");
     for (const float index : {1.5f, 2.0f}) {
-        // Along the axis the share R is thrown back at each surface: seen through the
-        // ball, T^2 (1 + R^2 + R^4 + ...) = T^2/(1 - R^2) of what lies behind.
+        // Along the axis each surface reflects the fraction R and transmits T = 1 - R.
+        // Through the ball one sees T^2 (1 + R^2 + R^4 + ...) = T^2/(1 - R^2) of the
+        // light behind it.
         const Matter glass{.kind = Kind::glass, .index = index};
         CAPTURE(index);
         Room room{.objects{{ljus::Sphere{{0, 0, 5}, 1}, glass}, diffuse_ball},
@@ -182,12 +183,12 @@ TEST_CASE("2.10 (3 points) glass shows what it lets through and what it throws b
         room.lamps = {};
         room.objects.pop_back();
         room.objects.push_back({ljus::Quad{{-9, -9, -9}, {0, 18, 0}, {18, 0, 0}}, {}});
-        room.sky = Rgb{1}; // and before it, of the sky: R + T^2 R (1 + R^2 + ...)
+        room.sky = Rgb{1}; // reflected sky: R + T^2 R (1 + R^2 + ...)
         CHECK(radiance(room, ray, 16).x ==
               doctest::Approx(back + share * back).epsilon(2e-4));
-        // A ray beside the axis crosses it at n/(2 (n - 1)) radii from the centre, and
-        // is at x = -0.1 at 3 radii for n = 1.5, at x = -0.2 for n = 2. A black wall
-        // hides the sky from -0.15 on.
+        // A ray near the axis crosses the axis at n/(2 (n - 1)) radii from the centre.
+        // At 3 radii it is at x = -0.1 for n = 1.5, and at x = -0.2 for n = 2. A black
+        // wall hides the sky below x = -0.15.
         room.objects.back() = {ljus::Quad{{-9, -9, 2}, {0, 18, 0}, {8.85f, 0, 0}}, {}};
         const float seen = radiance(room, {{0.1f, 0, 9}, {0, 0, -1}}, 16).x;
         CHECK((index < 1.75f ? seen > 0.7f : seen < 0.4f));
@@ -208,8 +209,8 @@ TEST_CASE("2.11 (1 point) each mirror and each surface of glass uses up depth") 
     CHECK(ljus::is_black(radiance(room, ray, 20)));
     const Ray out{.origin{5, 5, 5}, .direction = normalize(Vec3{5, 0, 1})};
     CHECK(radiance(room, out, 20).x == doctest::Approx(1));
-    // Along the axis of a glass ball in an even sky: 4 % of it come back at once, and
-    // 0.96^2 pass two surfaces.
+    // Along the axis of a glass ball under an even sky, 4 % of the light is reflected
+    // at the first surface, and 0.96^2 passes two surfaces.
     const Room ball{.objects{{ljus::Sphere{{0, 0, 0}, 1}, {.kind = Kind::glass}}},
                     .sky = Rgb{1}};
     CHECK(radiance(ball, down, 0).x == 0);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 3: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 3: yours to write. The file compiles, but every test fails.
 
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,7 @@ inline Vec2 sample_disc(Vec2 u) {
     return Vec2{2};
 }
 
-// A direction above the horizon (z > 0), uniform in solid angle; its density.
+// A direction above the horizon (z > 0), uniform in solid angle, and its density.
 inline Vec3 sample_uniform(Vec2 u) {
     return Vec3{0};
 }
@@ -30,7 +30,8 @@ inline float pdf_uniform(const Vec3& direction) {
     return 0;
 }
 
-// A direction above the horizon with a density in proportion to its cosine z.
+// A direction above the horizon with a density proportional to its cosine z, and that
+// density.
 inline Vec3 sample_cosine(Vec2 u) {
     return Vec3{0};
 }
@@ -38,8 +39,8 @@ inline float pdf_cosine(const Vec3& direction) {
     return 0;
 }
 
-// A direction within a cone around any axis, uniform in solid angle; its density,
-// which is 0 for a direction outside.
+// A direction within a cone around any axis, uniform in solid angle, and its density,
+// which is 0 outside the cone.
 inline Vec3 sample_cone(const Cone& cone, Vec2 u) {
     return Vec3{0};
 }
@@ -47,9 +48,9 @@ inline float pdf_cone(const Cone& cone, const Vec3& direction) {
     return 0;
 }
 
-// One sample of the irradiance of the floor under a sky, three times: by a uniform
-// direction, by a cosine-weighted one, and by one within a cone. The last finds the
-// light of that cone only.
+// One sample of the irradiance of the floor under a sky, in three ways: by a uniform
+// direction, by a cosine-weighted direction, and by a direction within a cone. The last
+// one finds only the light of that cone.
 inline double irradiance_uniform(const Sky& sky, Vec2 u) {
     return 0;
 }
@@ -60,8 +61,8 @@ inline double irradiance_cone(const Sky& sky, const Cone& cone, Vec2 u) {
     return 0;
 }
 
-// The balance heuristic: the weight of a sample of density a that another way would
-// have drawn with density b.
+// The balance heuristic: the weight of a sample that was drawn with density a, and that
+// another method would have drawn with density b.
 inline double balance(double a, double b) {
     return 0;
 }
@@ -73,13 +74,13 @@ inline double irradiance_both(const Sky& sky, const Cone& cone, Vec2 u_cosine,
     return 0;
 }
 
-// n x n points of the unit square: one at random in each cell of a grid.
+// n x n points of the unit square: one random point in each cell of a grid.
 inline std::vector<Vec2> stratified(int n, RandomStream& stream) {
     return {};
 }
 
-// Russian roulette: the value goes on with the given chance, u < chance, and is 0
-// otherwise, so that the mean stays what it was.
+// Russian roulette. The value survives with probability `chance`, if u < chance, and is
+// 0 otherwise. The mean does not change.
 inline double roulette(double value, double chance, double u) {
     return 0;
 }

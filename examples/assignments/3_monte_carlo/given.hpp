@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file given.hpp
-/// \brief Assignment 3, given: an estimate, a sky, and directions around an axis.
+/// \brief Given in assignment 3: an estimate, a sky, and directions around an axis.
 
 #include <functional>
 
@@ -23,13 +23,14 @@ struct Estimate {
 /// The radiance that arrives from a direction; z points away from the floor.
 using Sky = std::function<double(const Vec3&)>;
 
-/// All directions whose angle with the axis has at least this cosine: a round lamp.
+/// The directions of a round lamp: all whose angle with the axis has at least this
+/// cosine.
 struct Cone {
     Vec3 axis{0, 0, 1};
     float cosine = 0.9f;
 };
 
-/// A direction around +z, turned so that it lies around the axis instead.
+/// Turns a direction by the rotation that takes +z to the axis.
 inline Vec3 around(const Vec3& axis, const Vec3& local) {
     return ljus::to_world(ljus::frame_around(axis), local);
 }

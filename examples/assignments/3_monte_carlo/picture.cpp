@@ -1,6 +1,6 @@
-// Assignment 3: a floor seen from above under a dim sky with one lamp; from left to
-// right uniform directions, cosine-weighted ones, and both ways with the balance
-// heuristic.
+// Assignment 3: a floor seen from above, under a dim sky with one lamp. From left to
+// right it is sampled by uniform directions, by cosine-weighted directions, and by both
+// cosine-weighted and cone directions with the balance heuristic.
 #include <answer.hpp>
 
 #include <string>

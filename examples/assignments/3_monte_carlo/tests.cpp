@@ -1,15 +1,15 @@
-// Assignment 3: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms within five standard errors: a right answer fails a
-// check once in 1.7 million seeds, and the seeds are fixed. Any right estimator will
-// do.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 3: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms within five standard errors: a right answer
+// fails a check once in 1.7 million seeds, and the seeds are fixed. Any right estimator
+// will do.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The integral over all directions of several functions, by samples over their
-/// density: sampler and density must tell the same story.
+/// The integrals of several functions over all directions, estimated from samples
+/// divided by their density. They are right only if sampler and density agree.
 template <typename Sample, typename Pdf>
 void check_sampler(const Sample& sample, const Pdf& pdf, double one_minus_cosine,
                    const Vec3& axis) {
@@ -41,12 +41,13 @@ void check_sampler(const Sample& sample, const Pdf& pdf, double one_minus_cosine
     const double w = 1 - one_minus_cosine; // the cosine at the border
     CHECK(height.agrees(pi * (1 - w * w), 1e-4));
     CHECK(square.agrees(2 * pi * (1 - w * w * w) / 3, 1e-4));
-    // 1/p has no bound at the horizon if p is the cosine: its mean converges slowly.
+    // If p is the cosine, 1/p is unbounded at the horizon, and its mean converges
+    // slowly.
     CHECK(std::abs(solid_angle.mean() / (2 * pi * one_minus_cosine) - 1) < 0.1);
     CHECK(std::abs(side.mean() / (pi * one_minus_cosine) - 1) < 0.1);
 }
 
-/// All points near the border of the unit square, where rounding is at its worst.
+/// Points near the border of the unit square, where rounding matters most.
 template <typename Sample, typename Pdf>
 void check_border(const Sample& sample, const Pdf& pdf) {
     const float last = 1 - 0x1p-24f; // the largest float below 1
@@ -61,8 +62,7 @@ void check_border(const Sample& sample, const Pdf& pdf) {
             }
 }
 
-/// A lamp in the sky that covers the floor's own zenith angle 60 degrees, and a dim
-/// rest.
+/// A sky with a bright lamp at 60 degrees from the zenith; the rest of the sky is dim.
 struct Night {
     Cone lamp{normalize(Vec3{std::sqrt(3.0f), 0, 1}), 0.995f};
     double bright = 100, dim = 0.5;
@@ -72,8 +72,8 @@ struct Night {
             return dot(d, lamp.axis) >= lamp.cosine ? bright : dim;
         };
     }
-    /// The projected solid angle of a cone above the horizon: pi sin^2 times the cosine
-    /// of its axis.
+    /// The projected solid angle of a cone above the horizon: pi sin^2 of its half
+    /// angle, times the cosine of its axis.
     double share() const {
         const double c = lamp.cosine;
         return pi * (1 - c * c) * double(lamp.axis.z);
@@ -91,7 +91,8 @@ TEST_CASE("3.1 (2 points) the standard error is that of the mean") {
     const Estimate four = estimate({1, 2, 3, 6});
     CHECK(four.mean == doctest::Approx(3));
     CHECK(four.error == doctest::Approx(std::sqrt(14.0 / 3 / 4)));
-    // Of many: the true error of the mean of 100 uniform numbers is 1/sqrt(1200).
+    // Over many runs: the true error of the mean of 100 uniform numbers is
+    // 1/sqrt(1200).
     auto stream = course::stream(1);
     Mean errors;
     for (int run = 0; run < 400; ++run) {
@@ -185,8 +186,9 @@ TEST_CASE("3.6 (3 points) all ways have the mean of the closed form") {
     CHECK(cosine.agrees(night.irradiance()));
     CHECK(cone.agrees(night.bright * night.share(), 1e-3));
     REQUIRE(cone.mean() > 0);
-    // A lamp whose middle lies on the horizon, and light from below the floor, too: of
-    // a cone of half angle a, the upper half gives (2 a - sin 2a) / 2.
+    // A lamp whose middle lies on the horizon, so that half of its light comes from
+    // below the floor. The upper half of a cone of half angle a gives (2 a - sin 2a) /
+    // 2.
     const Cone half{{1, 0, 0}, 0.5f};
     Mean low;
     for (int i = 0; i < 40000; ++i)
@@ -237,7 +239,8 @@ TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
     CHECK(both.agrees(night.irradiance(), 1e-3));
     CHECK(both.variance() < cosine.variance() / 20);
 
-    // A lamp as wide as a third of the sky: both ways have densities of like size.
+    // A lamp as wide as a third of the sky, for which both methods have similar
+    // densities.
     const Night wide{.lamp = {{0, 0, 1}, 0.5f}, .bright = 3};
     Mean evening;
     for (int i = 0; i < 100000; ++i)
@@ -245,9 +248,9 @@ TEST_CASE("3.9 (4 points) both ways together are right and have less noise") {
             irradiance_both(wide.sky(), wide.lamp, next_2d(stream), next_2d(stream)));
     CHECK(evening.agrees(wide.irradiance(), 1e-3));
 
-    // Lamps like stars, each in a patch of sky that is bright to a little beyond it. A
-    // direction of the cone brings L cos / (p_a + p_b), rounded out of it or not; the
-    // cosine-weighted one is far from the patch.
+    // Lamps as small as stars, each in a slightly larger patch of bright sky. A
+    // direction in the cone gives L cos / (p_a + p_b), even if rounding moves it out of
+    // the cone. The cosine-weighted direction is far from the patch.
     for (int i = 0; i < 20000; ++i) {
         const float phi = 2 * next_1d(stream) - 1, sine = std::sqrt(0.75f);
         const Vec3 to_star{sine * std::cos(phi), sine * std::sin(phi), 0.5f};

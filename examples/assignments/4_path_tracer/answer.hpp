@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 4: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 4: yours to write. The file compiles, but every test fails.
 
 #include <algorithm>
 #include <numbers>
@@ -20,11 +20,12 @@ using ljus::RandomStream, ljus::next_1d, ljus::next_2d; // uniform in [0, 1)
 using ljus::Ray, ljus::Rgb, ljus::SurfacePoint, ljus::Vec3;
 
 // [asked]
-// A point of a lamp, chosen by chance.
+// A random point of a lamp.
 struct LampPoint {
     const Object* lamp = nullptr;
     SurfacePoint point{};
-    float density = 0; ///< Of this point, per unit of area; choice of lamp included.
+    float density = 0; ///< Density of the point, per unit of area, including the choice
+                       ///< of the lamp.
 };
 
 // Chooses one of the objects with an emission, and a point of it; nothing if the room
@@ -34,16 +35,16 @@ inline std::optional<LampPoint> choose_lamp_point(const Room& room,
     return std::nullopt;
 }
 
-// One sample of the light that comes straight from the lamps and that a diffuse
-// surface sends to where the ray comes from. It draws one shadow ray.
+// One sample of the radiance that a diffuse surface reflects to the origin of the ray,
+// of light that comes straight from the lamps. It takes one shadow ray.
 inline Rgb direct_light(const Room& room, const Surface& surface, const Ray& ray,
                         RandomStream& stream) {
     return Rgb{0};
 }
 
-// One sample of all the light that comes along a ray in a room of diffuse objects:
-// what the surface emits, direct light at each surface of the path, and a path that
-// ends by Russian roulette only.
+// One sample of the radiance that arrives along a ray in a room of diffuse objects. It
+// includes the emission of the first surface, and direct light at each surface of a
+// path that ends only by Russian roulette.
 inline Rgb radiance(const Room& room, Ray ray, RandomStream& stream) {
     return Rgb{0};
 }

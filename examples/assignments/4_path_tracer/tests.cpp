@@ -1,15 +1,15 @@
-// Assignment 4: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms and with quadrature within five standard errors: a
-// right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
+// Assignment 4: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms and with quadrature within five standard errors:
+// a right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
 // right estimator will do.
-#include <answer.hpp> // first: it must bring what it needs
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A floor, and a square lamp of side 2 that hangs at a height and shines down.
+/// A square lamp of side 2 that hangs at a height above the floor and shines down.
 Object lamp_at(float x, float height, Rgb radiance) {
     return {ljus::Quad{{x - 1, -1, height}, {0, 2, 0}, {2, 0, 0}},
             {.color = Rgb{0}, .emission = radiance}};
@@ -27,7 +27,7 @@ const Object floor_of_half{ljus::Quad{{-50, -50, 0}, {100, 0, 0}, {0, 100, 0}},
                            {.color = Rgb{0.5f}}};
 const Ray down{.origin{0, 0, 0.5f}, .direction{0, 0, -1}};
 
-/// The irradiance of the origin by lamp_at(), by the midpoint rule over the lamp.
+/// The irradiance at the origin from lamp_at(), by the midpoint rule over the lamp.
 double irradiance(double x, double height, double radiance) {
     double sum = 0;
     constexpr int n = 400;
@@ -40,9 +40,10 @@ double irradiance(double x, double height, double radiance) {
     return radiance * sum * 4 / (n * n);
 }
 
-/// A lamp, a ball of radius r that emits 1, in the middle of a ball of radius 1 with a
-/// diffuse inside. The wall gets r^2 pi from the lamp; of what it sends back the share
-/// r^2 falls onto the lamp, where nothing is left of it unless the lamp reflects.
+/// A lamp in the middle of a ball of radius 1 with a diffuse inside. The lamp is a ball
+/// of radius r that emits radiance 1. It gives the wall the irradiance r^2 pi. Of the
+/// light that the wall reflects, the fraction r^2 falls onto the lamp, which absorbs it
+/// unless the lamp reflects.
 struct Globe {
     float r = 0.3f, albedo = 0.5f, lamp_albedo = 0;
     Room room() const {
@@ -100,7 +101,7 @@ TEST_CASE("4.1 (2 points) points are chosen on lamps only and their density is r
     }
     CHECK(area.agrees(8, 1e-4));
     CHECK(left.agrees(2, 1e-4));  // half of the first lamp
-    CHECK(front.agrees(2, 1e-4)); // and another half of it
+    CHECK(front.agrees(2, 1e-4)); // another half of that lamp
     room.objects.resize(1);
     CHECK_FALSE(choose_lamp_point(room, stream));
 }
@@ -137,7 +138,7 @@ TEST_CASE("4.4 (2 points) what is between casts a shadow and a lamp has one side
     const double exact = 0.5 / pi * irradiance(0, 2, 3);
     CHECK(shadow_rays(room, 40000).agrees(exact, 1e-5));
     room.objects.push_back({ljus::Quad{{-1, -1, 0.7f}, {2, 0, 0}, {0, 2, 0}},
-                            {.color = Rgb{0}, .emission = Rgb{9}}}); // it shines up
+                            {.color = Rgb{0}, .emission = Rgb{9}}}); // shines upwards
     CHECK(shadow_rays(room, 2000).mean() == 0);
     CHECK(shadow_rays({.objects{floor_of_half, lamp_at(0, 2, Rgb{3})}}, 99).mean() > 0);
 }
@@ -146,7 +147,8 @@ TEST_CASE("4.5 (2 points) a shadow ray has less noise than a path by chance") {
     INFO("Expected: one shadow ray to a point of the lamp, not a ray that finds it "
          "by chance.\n"
          "Read: Direct light.");
-    // A path that hits the lamp by chance p carries 0.5 L: its variance is 0.25 L^2 p.
+    // A path hits the lamp with probability p and then carries 0.5 L. The variance is
+    // therefore about 0.25 L^2 p.
     const Room room{.objects{floor_of_half, lamp_at(0, 4, Rgb{3})}};
     const double chance = irradiance(0, 4, 3) / (3 * pi);
     const Mean mean = shadow_rays(room, 20000);
@@ -194,7 +196,7 @@ TEST_CASE("4.9 (2 points) paths between white walls end and lose nothing") {
     INFO("Expected: light of hundreds of bounces.\n"
          "Likely: a limit on their number, or roulette without its division.\n"
          "Read: The end; the chapter Path tracing.");
-    for (const float r : {0.4f, 0.1f}) { // the small lamp gets little of it back
+    for (const float r : {0.4f, 0.1f}) { // a small lamp absorbs little
         const Globe globe{.r = r, .albedo = 0.97f};
         CAPTURE(r);
         CHECK(paths(globe.room(), globe.to_wall(), 40000).agrees(globe.all(), 2e-4));

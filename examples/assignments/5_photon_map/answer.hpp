@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 5: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 5: yours to write. The file compiles, but every test fails.
 
 #include <numbers>
 #include <vector>
@@ -18,27 +18,28 @@ using ljus::RandomStream, ljus::next_1d, ljus::next_2d; // uniform in [0, 1)
 
 // [asked]
 // One of `count` photons that together carry the flux of all objects with an emission.
-// A lamp sends light from every point of it, along its normal and to all sides.
+// A lamp emits the same radiance from all its points in all directions, on the side of
+// its normal.
 inline Flight emit(const Room& room, int count, RandomStream& stream) {
     return {};
 }
 
-// Follows a photon through a room of diffuse objects. It is stored at each surface
-// that it meets, with the flux that arrives there, and goes on or ends by Russian
-// roulette.
+// Follows a photon through a room of diffuse objects. At each surface the photon is
+// stored with the flux that arrives there. Russian roulette decides whether it
+// continues.
 inline void follow(const Room& room, Flight flight, RandomStream& stream,
                    std::vector<Photon>& stored) {}
 
-// The weight of a photon at a distance d from the middle of a disc with radius r, for
-// x = d^2/r^2 in [0, 1]: Epanechnikov's, which falls to 0 at the edge. Its mean over
-// the disc is 1.
+// Epanechnikov's kernel: the weight of a photon at a distance d from the middle of a
+// disc of radius r, for x = d^2/r^2 in [0, 1]. It falls to 0 at the edge, and its mean
+// over the disc is 1.
 inline float kernel(float x) {
     return 0;
 }
 
-// The radiance that a diffuse surface sends to where the ray comes from, out of the
-// photons within a radius. Only photons that came to this side of this surface count:
-// those of the other side of a wall, or of a wall beside it, do not.
+// The radiance that a diffuse surface reflects to the origin of the ray, estimated from
+// the photons within a radius. Only photons that arrived on this side of this surface
+// count, not those on the other side of a wall, or on another wall nearby.
 inline Rgb estimate(const PhotonMap& map, const Surface& surface, const Ray& ray,
                     float radius) {
     return Rgb{0};

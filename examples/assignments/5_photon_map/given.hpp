@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file given.hpp
-/// \brief Assignment 5, given: a photon, and a map that finds photons around a point.
+/// \brief Given in assignment 5: a photon, and a map that finds photons around a point.
 
 #include <span>
 #include <utility>
@@ -15,20 +15,20 @@ namespace answer {
 using course::Object, course::Room, course::Surface;
 using ljus::Ray, ljus::Rgb, ljus::SurfacePoint, ljus::Vec3;
 
-/// A packet of flux where it met a surface.
+/// A photon where it has met a surface.
 struct Photon {
     Vec3 position{0};
-    Vec3 direction{0}; ///< Of length 1, the way it travels.
-    Rgb flux{0};       ///< W
+    Vec3 direction{0}; ///< Direction of travel, of length 1.
+    Rgb flux{0};       ///< Flux, W.
 };
 
-/// A photon on its way: where it starts, and what it carries.
+/// A photon on its way: its ray, and its flux in W.
 struct Flight {
     Ray ray{};
     Rgb flux{0};
 };
 
-/// The photons in a k-d tree.
+/// Photons in a k-d tree.
 class PhotonMap {
 public:
     explicit PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons)) {

@@ -1,15 +1,15 @@
-// Assignment 5: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms within five standard errors: a right answer fails a
-// check once in 1.7 million seeds, and the seeds are fixed. Any right estimator will
-// do.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 5: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms within five standard errors: a right answer
+// fails a check once in 1.7 million seeds, and the seeds are fixed. Any right estimator
+// will do.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -24,9 +24,9 @@ Object lamp_at(float x, Rgb radiance) {
             {.color = Rgb{0}, .emission = radiance}};
 }
 
-/// A lamp, a black ball of radius r that emits 1, in the middle of a ball of radius 1
-/// with a diffuse inside. Of what the wall sends back the share r^2 falls onto the
-/// lamp.
+/// A lamp in the middle of a ball of radius 1 with a diffuse inside. The lamp is a
+/// black ball of radius r that emits radiance 1. Of the light that the wall reflects,
+/// the fraction r^2 falls onto the lamp.
 struct Globe {
     float r = 0.3f, albedo = 0.5f;
     Room room() const {
@@ -35,15 +35,16 @@ struct Globe {
             {ljus::Sphere{{0, 0, 0}, r}, {.color = Rgb{0}, .emission = Rgb{1}}}}};
     }
     double flux() const { return 4 * pi * pi * double(r) * double(r); }
-    /// What arrives at the wall, after any number of bounces.
+    /// The flux that arrives at the wall, after any number of bounces.
     double arrives() const {
         return flux() / (1 - double(albedo) * (1 - double(r) * double(r)));
     }
-    /// And the radiance that it makes the wall send out.
+    /// The radiance that the wall reflects.
     double radiance() const { return double(albedo) / pi * arrives() / (4 * pi); }
 };
 
-/// What each emitted photon leaves on the wall of a globe, times how many there are.
+/// The mean, over emitted photons, of the flux that a photon leaves on the wall of a
+/// globe, times the number of photons.
 Mean on_the_wall(const Globe& globe, int count, std::vector<Photon>& all) {
     const Room room = globe.room();
     auto stream = course::stream(21);
@@ -139,7 +140,7 @@ TEST_CASE("5.3 (2 points) a black wall gets the flux of the lamp") {
     const Photon& photon = stored.front();
     CHECK(length(photon.position) == doctest::Approx(1).epsilon(1e-3));
     CHECK(length(photon.direction) == doctest::Approx(1).epsilon(1e-4));
-    CHECK(dot(photon.direction, photon.position) > 0); // it came from within
+    CHECK(dot(photon.direction, photon.position) > 0); // from inside the ball
 }
 
 TEST_CASE("5.4 (3 points) what arrives in all bounces adds up") {
@@ -153,7 +154,7 @@ TEST_CASE("5.4 (3 points) what arrives in all bounces adds up") {
         CAPTURE(albedo);
         CHECK(on_the_wall(globe, 40000, stored).agrees(globe.arrives(), 1e-3));
     }
-    // A wall that reflects much of the red and little of the green.
+    // A wall that reflects much red and little green light.
     Room room = Globe{.albedo = 0.8f}.room();
     room.objects[0].matter.color = Rgb{0.8f, 0.3f, 0};
     auto stream = course::stream(23);
@@ -176,14 +177,14 @@ TEST_CASE("5.5 (2 points) survivors of roulette are no weaker than they were") {
     INFO("Expected: all photons alike between grey walls: q is the largest "
          "component of the albedo.\n"
          "Read: On its way.");
-    // Grey walls: by roulette with the albedo every stored photon has the same flux.
+    // On grey walls, roulette with the albedo gives every stored photon the same flux.
     const Globe globe{.albedo = 0.6f};
     std::vector<Photon> stored;
     const Mean mean = on_the_wall(globe, 20000, stored);
     const double per_photon = globe.flux() / 20000;
     const double photons = double(stored.size()) / 20000;
     CHECK(mean.mean() > globe.flux());
-    CHECK(photons < 1.3 * globe.arrives() / globe.flux()); // not a crowd of weak ones
+    CHECK(photons < 1.3 * globe.arrives() / globe.flux()); // not many weak photons
     for (const Photon& photon : stored)
         REQUIRE(double(photon.flux.x) < 1.5 * per_photon);
 }
@@ -221,8 +222,8 @@ TEST_CASE("5.8 (3 points) only photons of this side of this surface count") {
         photons.insert(photons.end(), more.begin(), more.end());
     };
     const double exact = 0.5 / pi * 3;
-    add(rain(0, {0, 1, 1}));       // they came from below
-    add(rain(-0.25f, {0, 0, -1})); // they are of another floor
+    add(rain(0, {0, 1, 1}));       // photons from below
+    add(rain(-0.25f, {0, 0, -1})); // photons of another floor
     CHECK(seen(photons) == doctest::Approx(exact).epsilon(0.01));
     const Ray up{.origin{0, 0, -0.1f}, .direction{0, 0, 1}}; // the same from below
     CHECK(seen(photons, up) == doctest::Approx(exact).epsilon(0.01));
@@ -235,7 +236,7 @@ TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounce
     const Globe globe{.albedo = 0.7f};
     const Room room = globe.room();
     Mean mean;
-    for (int run = 0; run < 40; ++run) { // each a map of its own
+    for (int run = 0; run < 40; ++run) { // each run has its own map
         auto stream = course::stream(static_cast<std::uint64_t>(100 + run));
         std::vector<Photon> stored;
         for (int i = 0; i < 4000; ++i)
@@ -244,7 +245,8 @@ TEST_CASE("5.9 (4 points) the map of a closed room shows the light of all bounce
         mean.add(double(estimate(PhotonMap(stored), *nearest(room, ray), ray, 0.2f).x));
     }
     CHECK(mean.mean() > 0);
-    // A disc of radius 0.2 on a ball of radius 1 is curved: 2 % for what that changes.
+    // A disc of radius 0.2 on a ball of radius 1 is curved. The curvature may change
+    // the result by 2 %.
     CHECK(mean.agrees(globe.radiance(), 0.02 * globe.radiance()));
 }
 

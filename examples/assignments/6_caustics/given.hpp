@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file given.hpp
-/// \brief Assignment 6, given: photons, and the k-d tree of assignment 5.
+/// \brief Given in assignment 6: photons, and the k-d tree of assignment 5.
 
 #include <span>
 #include <utility>
@@ -15,20 +15,20 @@ namespace answer {
 using course::Kind, course::Object, course::PointLamp, course::Room, course::Surface;
 using ljus::Ray, ljus::Rgb, ljus::Sphere, ljus::Vec2, ljus::Vec3;
 
-/// A packet of flux where it met a surface.
+/// A photon where it has met a surface.
 struct Photon {
     Vec3 position{0};
-    Vec3 direction{0}; ///< Of length 1, the way it travels.
-    Rgb flux{0};       ///< W
+    Vec3 direction{0}; ///< Direction of travel, of length 1.
+    Rgb flux{0};       ///< Flux, W.
 };
 
-/// A photon on its way: where it starts, and what it carries.
+/// A photon on its way: its ray, and its flux in W.
 struct Flight {
     Ray ray{};
     Rgb flux{0};
 };
 
-/// The radiance of a diffuse surface out of the photons of a map, as in assignment 5.
+/// A photon map that estimates the radiance of a diffuse surface, as in assignment 5.
 class PhotonMap {
 public:
     explicit PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons)) {

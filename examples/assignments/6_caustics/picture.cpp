@@ -1,5 +1,5 @@
-// Assignment 6: what a glass ball gathers and a mirror ball spreads on a floor, by the
-// caustics map; direct light by shadow rays. The balls are drawn as outlines only.
+// Assignment 6: the caustics of a glass ball and a mirror ball on a floor, by the
+// caustics map, with direct light by shadow rays. The balls are drawn as outlines only.
 #include <answer.hpp>
 
 #include <string>

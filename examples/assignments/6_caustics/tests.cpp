@@ -1,15 +1,15 @@
-// Assignment 6: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms and with a fan of rays within five standard errors: a
-// right answer fails a check once in 1.7 million seeds, and the seeds are fixed. Any
-// right estimator will do.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 6: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms and with a fan of rays within five standard
+// errors: a right answer fails a check once in 1.7 million seeds, and the seeds are
+// fixed. Any right estimator will do.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -29,22 +29,23 @@ Room lens(float drop, bool closed = false) {
 }
 const Sphere ball{{0, 0, 0}, 1};
 
-/// Where a ray of the lamp at the angle theta goes through the ball without being
-/// thrown back, and how much of it: distance from the axis on the floor, and T^2. In
-/// the plane, by angles only.
+/// A ray of the lamp at the angle theta that passes through the ball without
+/// reflection: its distance from the axis on the floor, and the fraction T^2 of its
+/// light. It is computed in the plane, by angles only.
 struct Fan {
     double radius = 0, share = 0;
 };
 Fan through(double theta, double drop) {
-    const double sine = 4 * std::sin(theta); // of the angle at the surface
+    const double sine = 4 * std::sin(theta); // angle of incidence
     const double in = std::asin(sine), behind = std::asin(sine / 1.5);
     const double s = std::sin(in - behind) / std::sin(in + behind);
     const double p = std::tan(in - behind) / std::tan(in + behind);
     const double back = (s * s + p * p) / 2;
-    // It enters at the polar angle in - theta, crosses the ball over the central angle
-    // pi - 2 behind, and is turned by 2 (in - behind) towards the axis in all.
+    // The ray enters at the polar angle in - theta, crosses the ball over the central
+    // angle pi - 2 behind, and is turned towards the axis by 2 (in - behind) in total.
     const double leaves = in - theta + pi - 2 * behind;
-    const double out = theta - 2 * (in - behind); // with the axis; below 0: towards it
+    const double out = theta - 2 * (in - behind); // angle with the axis; below 0:
+                                                  // towards it
     const double x = std::sin(leaves), z = std::cos(leaves);
     const double way = (drop + z) / std::cos(out);
     return {std::abs(x + way * std::sin(out)), (1 - back) * (1 - back)};
@@ -77,7 +78,7 @@ TEST_CASE("6.2 (2 points) the flux towards a ball is that of its cone") {
     const double cone = 2 * pi * (1 - std::sqrt(0.5));
     CHECK(flux_towards(near, ball).x == doctest::Approx(cone).epsilon(1e-4));
     CHECK(flux_towards(near, ball).z == doctest::Approx(3 * cone).epsilon(1e-4));
-    // Far away 1 - cos cancels: pi (R/d)^2 is left.
+    // For a far lamp 1 - cos loses its digits; the solid angle is pi (R/d)^2.
     const PointLamp far{{0, 0, 2000}, Rgb{1}};
     CHECK(flux_towards(far, ball).x * 4e6 / pi == doctest::Approx(1).epsilon(0.01));
 }
@@ -122,7 +123,7 @@ TEST_CASE("6.4 (2 points) only photons that met glass or a mirror arrive") {
     const Flight beside{{.origin{3, 0, 4}, .direction{0, 0, -1}}, Rgb{1}};
     CHECK_FALSE(follow(room, beside, stream)); // L D
     const Flight away{{.origin{3, 0, 4}, .direction{0, 0, 1}}, Rgb{1}};
-    CHECK_FALSE(follow(room, away, stream)); // it meets nothing
+    CHECK_FALSE(follow(room, away, stream)); // meets nothing
     room.objects[0].matter = {Kind::mirror, Rgb{0.5f}};
     const float h = std::sqrt(0.5f);
     room.objects.push_back({ljus::Quad{{5, -5, -5}, {0, 10, 0}, {0, 0, 10}}, {}});
@@ -132,7 +133,8 @@ TEST_CASE("6.4 (2 points) only photons that met glass or a mirror arrive") {
     CHECK(distance(photon->position, Vec3{5, 0, h}) < 1e-4f);
     CHECK(distance(photon->direction, Vec3{1, 0, 0}) < 1e-5f);
     CHECK(photon->flux.x == doctest::Approx(0.5));
-    // Down between two mirrors, which it meets at the depths 0.5, 1.5, 2.5, ...
+    // A photon flies down between two mirrors, and meets them at the depths 0.5, 1.5,
+    // 2.5, ...
     for (const int mirrors : {20, 21}) {
         const float drop = float(mirrors);
         const Room shaft{.objects{
@@ -160,12 +162,12 @@ TEST_CASE("6.5 (3 points) a ball of glass has its focus at 3/2 radii") {
             const float angle = 2 * float(pi) * next_1d(stream);
             const Vec3 from{0.05f * std::cos(angle), 0.05f * std::sin(angle), 4};
             const auto photon = follow(room, {{from, {0, 0, -1}}, Rgb{1}}, stream);
-            // A few are thrown back once or more, and arrive elsewhere or nowhere.
+            // A few photons are reflected inside, and arrive elsewhere or nowhere.
             if (photon && length(ljus::Vec2(photon->position)) < 0.003f) ++arrived;
         }
         CAPTURE(index);
-        // 92 % go straight through n = 1.5 and 84 % through 1.8: 368 and 337, of which
-        // 340 and 300 are 5 sigma below.
+        // 92 % of the photons pass a ball of n = 1.5, and 84 % one of 1.8: 368 and 337
+        // are expected. 340 and 300 are 5 sigma below.
         CHECK(arrived >= (index < 1.6f ? 340 : 300));
     }
 }
@@ -175,7 +177,7 @@ TEST_CASE("6.6 (3 points) glass neither makes light nor loses any") {
          "Likely: multiplied by R or 1 - R although chance has decided, by a "
          "colour, or by n^2.\n"
          "Read: Following.");
-    const Room room = lens(0, true); // all that leaves the ball arrives somewhere
+    const Room room = lens(0, true); // all light from the ball arrives somewhere
     auto stream = course::stream(34);
     constexpr int count = 20000;
     Mean flux, turned_back;
@@ -186,14 +188,14 @@ TEST_CASE("6.6 (3 points) glass neither makes light nor loses any") {
     }
     CHECK(flux.agrees(double(flux_towards(room.lamps[0], ball).x), 2e-3));
     REQUIRE(flux.mean() > 0.1);
-    // Down the middle a glass plate throws back 2R/(1 + R), for R = 4 %.
+    // At normal incidence a glass plate reflects 2R/(1 + R), for R = 4 %.
     for (int i = 0; i < 20000; ++i) {
         const auto photon = follow(room, {{{0, 0, 4}, {0, 0, -1}}, Rgb{1}}, stream);
         REQUIRE(photon);
         turned_back.add(photon->position.z > 0 ? double(photon->flux.x) : 0);
     }
     CHECK(turned_back.agrees(2 * 0.04 / 1.04));
-    // A diffuse core: what arrives within the glass has its flux, too.
+    // A diffuse core: photons that arrive within the glass have their flux, too.
     Room core = room;
     core.objects.push_back({Sphere{{0, 0, 0}, 0.5f}, {}});
     for (int i = 0; i < 100; ++i) {
@@ -209,7 +211,7 @@ TEST_CASE("6.7 (5 points) the caustic is as bright as a fan of rays says") {
          "Read: Aiming; Following.");
     const float drop = 1.6f, radius = 0.25f;
     const Room room = lens(drop);
-    double exact = 0; // W into the disc around the axis
+    double exact = 0; // flux into the disc around the axis, W
     constexpr int rays = 100000;
     const double widest = std::asin(0.25);
     for (int i = 0; i < rays; ++i) {
@@ -228,7 +230,8 @@ TEST_CASE("6.7 (5 points) the caustic is as bright as a fan of rays says") {
         inside.add(here ? count * double(photon->flux.x) : 0);
     }
     CHECK(exact > 0.05);
-    // Light that was thrown back twice within the ball is not in the fan: below 1 %.
+    // The fan lacks light that was reflected twice inside the ball, which is less than
+    // 1 %.
     CHECK(inside.agrees(exact, 0.01 * exact));
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file given.hpp
-/// \brief Assignment 7, given: light that lands on a floor, and its estimate.
+/// \brief Given in assignment 7: light that lands on a floor, and an estimate of its
+/// irradiance.
 
 #include <cmath>
 #include <optional>
@@ -18,16 +19,18 @@ namespace answer {
 using ljus::RandomStream, ljus::next_1d; // uniform in [0, 1)
 using ljus::Vec2, ljus::Vec3;
 
-/// Where a photon lands on the floor, by chance; nowhere if it misses the floor.
+/// Returns the random point at which a photon lands on the floor; nothing if it misses
+/// the floor.
 using Landing = std::optional<Vec2> (*)(RandomStream& stream);
 
-/// Light: the flux of all photons that are sent out, in W, and where one of them lands.
+/// Light: the flux of all emitted photons, W, and a function that returns where one of
+/// them lands.
 struct Light {
     double flux = 1;
     Landing land = nullptr;
 };
 
-/// The square [-1/2, 1/2]^2 with the irradiance 1. A third of the photons miss it.
+/// Light with irradiance 1 on the square [-1/2, 1/2]^2. A third of the photons miss it.
 inline Light square_of_light() {
     return {1.5, [](RandomStream& stream) -> std::optional<Vec2> {
                 const float x = 1.5f * next_1d(stream) - 0.5f;
@@ -37,8 +40,8 @@ inline Light square_of_light() {
             }};
 }
 
-/// Low sun in a cup of radius 1 whose inside is a mirror: what the wall reflects onto
-/// the floor. What meets the wall a second time is left out.
+/// The light of a low sun that the inside of a cup of radius 1, a mirror, reflects onto
+/// the floor. Light that meets the wall a second time is left out.
 inline Light cup_of_light() {
     return {4, [](RandomStream& stream) -> std::optional<Vec2> {
                 const float y = 2 * next_1d(stream) - 1, x = std::sqrt(1 - y * y);
@@ -49,13 +52,13 @@ inline Light cup_of_light() {
             }};
 }
 
-/// A packet of flux on the floor.
+/// A photon on the floor.
 struct Photon {
     Vec2 position{0};
-    double flux = 0; ///< W
+    double flux = 0; ///< Flux, W.
 };
 
-/// The photons of one pass in a k-d tree.
+/// The photons of one pass, in a k-d tree.
 class PhotonMap {
 public:
     explicit PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons)) {
@@ -64,8 +67,8 @@ public:
             places.emplace_back(photon.position.x, photon.position.y, 0.0f);
         tree_ = ljus::KdTreeT<float>(std::span<const Vec3>(places));
     }
-    /// The irradiance at a point of the floor, in W per unit of area, from the photons
-    /// within a radius: the estimate of assignment 5.
+    /// The irradiance at a point of the floor, W per unit of area, estimated from the
+    /// photons within a radius as in assignment 5.
     double irradiance(const Vec2& point, float radius) const {
         double sum = 0;
         const double r2 = double(radius) * double(radius);
@@ -81,16 +84,16 @@ private:
     ljus::KdTreeT<float> tree_;
 };
 
-/// The irradiance at each of some points.
+/// The irradiance at some points.
 using Picture = std::vector<double>;
 
-/// All that is kept between two passes.
+/// The data that are kept from pass to pass.
 struct Progress {
-    float alpha = 2.0f / 3; ///< How fast the radius shrinks: 1 is not at all.
-    float radius = 1;       ///< Of the next pass.
-    int passes = 0;         ///< That have been added.
-    Picture mean{};         ///< Of these passes.
-    Picture squares{};      ///< The sum of the squared differences to this mean.
+    float alpha = 2.0f / 3; ///< How slowly the radius shrinks; with 1 it is constant.
+    float radius = 1;       ///< Radius of the next pass.
+    int passes = 0;         ///< Number of passes added so far.
+    Picture mean{};         ///< Mean of these passes.
+    Picture squares{};      ///< Sums of the squared differences to this mean.
 };
 
 } // namespace answer

@@ -1,5 +1,5 @@
-// Assignment 7: low sun in a cup, by passes of 500 photons: one pass on the left, the
-// mean of ten in the middle, the mean of all on the right.
+// Assignment 7: the light of a low sun in a cup, in passes of 500 photons. One pass is
+// on the left, the mean of ten in the middle, and the mean of all on the right.
 #include <answer.hpp>
 
 #include <string>

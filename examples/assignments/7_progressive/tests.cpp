@@ -1,8 +1,8 @@
-// Assignment 7: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms within five standard errors: a right answer fails a
-// check once in 1.7 million seeds, and the seeds are fixed. Any right estimator will
-// do.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 7: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms within five standard errors: a right answer
+// fails a check once in 1.7 million seeds, and the seeds are fixed. Any right estimator
+// will do.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -22,20 +22,21 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What one pass should be called with.
+/// The arguments with which a pass should be called.
 struct Call {
     float radius;
     int number;
 };
 
-/// The squared radius of pass n over that of the first: a quotient of gamma functions.
+/// The squared radius of pass n divided by that of the first pass, by gamma functions.
 double shrunk(int n, double alpha) {
     return std::exp(std::lgamma(n + alpha) - std::lgamma(1 + alpha) -
                     std::lgamma(n + 1));
 }
 
-/// The part of an estimate that is left at a distance d inside of a straight edge of
-/// light: the kernel over the part of the disc that is lit, by the midpoint rule.
+/// The fraction of an estimate that remains at a distance d inside a straight edge of
+/// light: the integral of the kernel over the lit part of the disc, by the midpoint
+/// rule.
 double inside(double d, double radius) {
     const double end = std::min(1.0, d / radius);
     constexpr int n = 1000;
@@ -47,7 +48,7 @@ double inside(double d, double radius) {
     return 8 / (3 * pi) * sum * (end + 1) / n;
 }
 
-/// Passes of a given light at some points, and how far they have come.
+/// The progress after passes of a given light at some points.
 Progress passes_of(const Light& light, const std::vector<Vec2>& points,
                    Progress progress, int passes, int count, int first_number) {
     run(progress, passes, [&](float radius, int number) {
@@ -56,7 +57,7 @@ Progress passes_of(const Light& light, const std::vector<Vec2>& points,
     return progress;
 }
 
-/// The square of light at one point, by a map of all 50 photons of a pass.
+/// The irradiance of the square of light at one point, from the 50 photons of a pass.
 double middle(int number) {
     const std::vector<Vec2> points{{0, 0}};
     const Picture picture = photon_pass(square_of_light(), points, 0.4f, 50, number);
@@ -164,8 +165,8 @@ TEST_CASE("7.7 (2 points) passes are independent and can be repeated") {
          "Likely: one stream for all passes, or one that the clock starts.\n"
          "Read: A pass.");
     CHECK(middle(3) == middle(3));
-    // The mean of 20 passes has a twentieth of the variance of one. Of 100 such means
-    // the variance is more than twice that once in ten million seeds.
+    // The mean of 20 passes has a twentieth of the variance of a pass. The variance of
+    // 100 such means exceeds twice that once in ten million seeds.
     Mean one, many;
     for (int k = 0; k < 100; ++k) {
         Mean group;
@@ -176,7 +177,7 @@ TEST_CASE("7.7 (2 points) passes are independent and can be repeated") {
         }
         many.add(group.mean());
     }
-    REQUIRE(one.variance() > 1e-6); // not the rounding of equal numbers
+    REQUIRE(one.variance() > 1e-6); // above the rounding of equal numbers
     CHECK(20 * many.variance() < 2 * one.variance());
 }
 

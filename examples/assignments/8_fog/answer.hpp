@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file answer.hpp
-/// \brief Assignment 8: yours to write. As it is, it compiles and every test fails.
+/// \brief Assignment 8: yours to write. The file compiles, but every test fails.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,13 @@
 namespace answer {
 
 // [asked]
-// The part of the light that fog lets through on a way of this length.
+// The fraction of the light that passes through this length of fog.
 inline double transmittance(const Fog& fog, double distance) {
     return -1;
 }
 
-// How far light flies before the fog scatters or absorbs it, for a number u in [0, 1).
+// The distance after which fog scatters or absorbs light, chosen by a number u in [0,
+// 1).
 inline double sample_flight(const Fog& fog, double u) {
     return -1;
 }
@@ -28,19 +29,19 @@ inline double pdf_flight(const Fog& fog, double t) {
 }
 
 // The phase function of Henyey and Greenstein, per steradian. The cosine is that of the
-// angle by which the light is turned.
+// angle between the directions of travel before and after.
 inline double phase(double g, double cosine) {
     return -1;
 }
 
-// Where light travels after it has been scattered, with the density phase(): a unit
-// vector. `travel` is the unit direction in which it came; u and v are in [0, 1).
+// The direction of travel after scattering, a unit vector with the density phase().
+// `travel` is the unit direction before; u and v are in [0, 1).
 inline Vec3 sample_phase(double g, const Vec3& travel, double u, double v) {
     return {0, 0, 0};
 }
 
-// A distance on the ray, from 0 to `length`, at which the lamp sees equal angles with
-// equal probability.
+// A distance on the ray, from 0 to `length`. Its distribution is uniform in the angle
+// under which the lamp sees the ray.
 inline double sample_angle(const Ray& ray, double length, const Vec3& lamp, double u) {
     return -1;
 }
@@ -50,17 +51,17 @@ inline double pdf_angle(const Ray& ray, double length, const Vec3& lamp, double 
     return -1;
 }
 
-// An estimate of the radiance that comes to the origin of the ray from the fog on its
-// first `length`: light of the lamp that was scattered once. It takes one sample of each
-// kind, a flight and an angle, and weighs them by the balance heuristic.
+// An estimate of the radiance that fog sends to the origin of the ray, from distances
+// up to `length`, of light of the lamp that was scattered once. It takes one sample by
+// sample_flight() and one by sample_angle(), weighted by the balance heuristic.
 inline double scattered_once(const Night& night, const Ray& ray, double length,
                              RandomStream& stream) {
     return -1;
 }
 
-// An estimate of the radiance that comes to the origin of the ray, which lies in a ball
-// of fog around (0, 0, 0). The light has been scattered any number of times. From
-// outside of the ball comes the radiance `around`, whatever the direction.
+// An estimate of the radiance that arrives at the origin of the ray, which lies in a
+// ball of fog around (0, 0, 0). The light has been scattered any number of times.
+// Outside the ball the radiance is `around` in all directions.
 inline double radiance_in_ball(const Fog& fog, double radius, double around, Ray ray,
                                RandomStream& stream) {
     return -1;

@@ -1,5 +1,5 @@
-// Assignment 8: a lamp in the night, and the shadow of a black ball in the fog. On the
-// left thin fog, in the middle dense fog, on the right fog that scatters forwards.
+// Assignment 8: a lamp in the night, and the shadow of a black ball in the fog. The fog
+// is thin on the left and dense in the middle; on the right it scatters forwards.
 #include <answer.hpp>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 using namespace answer;
 
-// How far one sees: to the ball, or to the dark 12 away.
+// The length of a ray: up to the ball, or 12 if it misses the ball.
 static double sight(const Night& night, const Ray& ray) {
     const Vec3 to = night.ball - ray.origin;
     const double b = dot(to, ray.direction);

@@ -1,8 +1,8 @@
-// Assignment 8: a test is a sentence that must hold. Points stand in its name. Means
-// are compared with closed forms, or with sums over a fine grid, within five standard
-// errors: a right answer fails a check once in 1.7 million seeds, and the seeds are
-// fixed. Any right estimator will do.
-#include <answer.hpp> // first: it must bring what it needs
+// Assignment 8: each test is a sentence that must hold. Its name states its points.
+// Means are compared with closed forms, or with sums over a fine grid, within five
+// standard errors: a right answer fails a check once in 1.7 million seeds, and the
+// seeds are fixed. Any right estimator will do.
+#include <answer.hpp> // first: it must include what it needs
 
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@
 
 #include "course/check.hpp"
 
-namespace course_tests { // its names come before yours
+namespace course_tests { // its names hide yours
 
 using namespace answer;
 using course::Mean;
@@ -30,21 +30,21 @@ double integral(double a, double b, F f) {
 
 const Ray along{{1, -2, 0.5}, {2.0 / 3, 2.0 / 3, 1.0 / 3}};
 
-/// A night whose lamp is 2 away from the ray `along`; nearest to it is the point of the
-/// ray at the distance t.
+/// A night whose lamp is at distance 2 from the ray `along`. The point of the ray
+/// nearest to the lamp is at the distance t.
 Night night_of(const Fog& fog, double t = 4) {
     const Vec3 aside = perpendicular(along.direction);
     return {fog, along.origin + t * along.direction + 2.0 * aside, 10};
 }
 
-/// The light that is scattered once, by the definition.
+/// The light that is scattered once, as a sum by its definition.
 double by_sum(const Night& night, const Ray& ray, double length) {
     const double g = night.fog.g, sigma = night.fog.absorption + night.fog.scattering;
     return integral(0, length, [&](double t) {
         const Vec3 point = ray.origin + t * ray.direction, to = night.lamp - point;
         if (!night.sees_lamp(point)) return 0.0;
         const double d2 = dot(to, to), d = std::sqrt(d2);
-        const double cosine = dot(to, ray.direction) / d; // both ways are turned around
+        const double cosine = dot(to, ray.direction) / d; // both are reversed
         const double turned =
             (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5) / (4 * pi);
         return std::exp(-sigma * (t + d)) * night.fog.scattering * turned *
@@ -52,7 +52,7 @@ double by_sum(const Night& night, const Ray& ray, double length) {
     });
 }
 
-/// The mean of many estimates of the same.
+/// The mean of many estimates of scattered_once().
 Mean estimates(const Night& night, const Ray& ray, double length, int count = 20000) {
     Mean mean;
     auto stream = course::stream(11);
@@ -97,7 +97,7 @@ TEST_CASE("8.2 (3 points) a flight has the length that its density says") {
     for (const double u : {1e-12, 0.1, 0.5, 0.9, 0.999999}) {
         const double t = sample_flight(fog, u);
         CAPTURE(u);
-        // As many flights are shorter as numbers are smaller.
+        // The probability of a shorter flight is u.
         CHECK(-std::expm1(-2 * t) == Approx(u).epsilon(1e-6));
         CHECK(pdf_flight(fog, t) == Approx(2 * std::exp(-2 * t)));
     }
@@ -227,8 +227,9 @@ TEST_CASE("8.8 (5 points) in a ball of fog the light of all bounces is found") {
     CHECK(in_ball({0.5, 2, -0.3, 0.25}, 1000, 0).agrees(0.5));
     CHECK(in_ball({0.5, 2, 0.7, 0.5}, 2, 1).agrees(1));
     CHECK(in_ball({0.2, 0.4, 0, 0.6}, 1, 3).agrees(3));
-    // Light that enters a ball with the cosine law stays for the length 4 R/3 in the
-    // mean, however the fog scatters it: the glow of fog without absorption counts it.
+    // Light that enters a ball by the cosine law travels the mean length 4 R/3 inside,
+    // however the fog scatters it. The glow of fog without absorption measures this
+    // length.
     Mean enters;
     auto stream = course::stream(13);
     for (int i = 0; i < 20000; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file course/check.hpp
-/// \brief What the tests share: a mean with its standard error.
+/// \brief Helps the tests of the assignments: a mean with its standard error.
 
 #include <cmath>
 #include <ostream>
@@ -10,7 +10,8 @@
 
 namespace course {
 
-/// Whether a mean is what it should be; a test that fails prints both.
+/// The result of comparing a mean with its expected value. A test that fails prints
+/// both.
 struct Verdict {
     bool holds = false;
     double mean = 0, error = 0, truth = 0;
@@ -31,15 +32,17 @@ struct Mean {
         count += 1;
     }
     double mean() const { return sum / count; }
-    /// Not below 0, where rounding would put that of equal numbers.
+    /// The variance of a number, at least 0. For equal numbers rounding could give
+    /// less.
     double variance() const {
         const double v = (sum2 - sum * sum / count) / (count - 1);
         return v < 0 ? 0 : v; // NaN stays
     }
     double error() const { return std::sqrt(variance() / count); }
-    /// Within five standard errors of the truth, and what the oracle itself may be
-    /// off: an estimator without bias fails once in 1.7 million seeds. The seeds are
-    /// fixed: the same answer always gets the same verdict.
+    /// Whether the mean is within five standard errors of the truth, plus `slack` for
+    /// the error of the truth itself. An estimator without bias fails once in 1.7
+    /// million seeds. The seeds are fixed, so that the same answer always gets the same
+    /// verdict.
     Verdict agrees(double truth, double slack = 0) const {
         const double off = std::abs(mean() - truth);
         const bool holds = off <= 5 * error() + slack; // NaN does not agree

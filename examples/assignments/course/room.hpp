@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file course/room.hpp
-/// \brief Given: a small room of spheres and quads, and what a ray meets in it.
+/// \brief Given: a small room of spheres and quads, and the first hit of a ray in it.
 
 #include <optional>
 #include <variant>
@@ -15,12 +15,12 @@ using ljus::Ray, ljus::Rgb, ljus::SurfacePoint, ljus::Vec2, ljus::Vec3;
 
 enum class Kind { diffuse, mirror, glass };
 
-/// What an object is made of.
+/// The material of an object.
 struct Matter {
     Kind kind = Kind::diffuse;
     Rgb color{0.5f};    ///< Albedo of a diffuse object, reflectance of a mirror.
     Rgb emission{0};    ///< Radiance, on the side of the normal only.
-    float index = 1.5f; ///< Of glass; outside it is 1.
+    float index = 1.5f; ///< Index of refraction of glass; outside it is 1.
 };
 
 /// A shape and its matter. The normal of a sphere points outwards, that of a quad along
@@ -42,14 +42,14 @@ struct Room {
     Rgb sky{0}; ///< The radiance of a ray that meets nothing.
 };
 
-/// What a ray met.
+/// The surface that a ray has met.
 struct Surface {
     const Object* object = nullptr;
     SurfacePoint point{}; ///< Position and normal; for spawn_ray().
     float t = 0;
 };
 
-/// The first object in the way of a ray.
+/// The first surface that a ray meets; nothing if it leaves the room.
 inline std::optional<Surface> nearest(const Room& room, Ray ray) {
     std::optional<Surface> found;
     for (const Object& object : room.objects) {
@@ -88,12 +88,12 @@ inline SurfacePoint sample_area(const Object& object, Vec2 u) {
                       object.shape);
 }
 
-/// The emitted radiance that leaves a point of an object into a direction.
+/// The emitted radiance that leaves a point of an object in a direction.
 inline Rgb emitted(const Object& object, const SurfacePoint& point, const Vec3& way) {
     return dot(way, point.normal) > 0 ? object.matter.emission : Rgb{0};
 }
 
-/// A normal, turned to the side that a ray comes from.
+/// The normal on the side from which a ray comes.
 inline Vec3 facing(const Vec3& normal, const Vec3& direction) {
     return dot(normal, direction) < 0 ? normal : -normal;
 }

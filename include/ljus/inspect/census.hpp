@@ -12,13 +12,14 @@
 namespace ljus {
 
 /// \defgroup census The census of a photon map
-/// \brief Section 3.2.2.1: the counts behind the report's figures 5 to 8.
+/// \brief Numbers of photons, as in the report's figures 5 to 8 (Section 3.2.2.1).
 /// \{
 
 /// The photons of one kind.
 struct PhotonCount {
-    std::uint64_t photons = 0; ///< Their number.
-    RgbT<double> flux{0}; ///< W, added in double; shadow photons: the missing flux.
+    std::uint64_t photons = 0; ///< Number of photons.
+    RgbT<double> flux{0}; ///< Sum of their flux, W, in double; for shadow photons the
+                          ///< flux that is missing.
 };
 
 /// The photons of a map, by kind.
@@ -30,7 +31,7 @@ struct PhotonCensus {
         return kinds[static_cast<std::size_t>(kind)];
     }
 
-    /// All photons on surfaces that carry light, without shadow photons.
+    /// The photons on surfaces that carry light: all kinds but shadow photons.
     [[nodiscard]] PhotonCount light() const noexcept {
         PhotonCount sum;
         for (const PhotonKind kind :
@@ -49,10 +50,10 @@ struct PhotonCensus {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// Counts photons of any list.
-/// \param photons  Photons or the records of a map: a list with index and size() of
-///                 elements with a kind and a flux.
-/// \cost One pass.
+/// Counts the photons of a list, by kind.
+/// \param photons  Photons, or the records of a map: any list with operator[] and
+///                 size() whose elements have a kind and a flux.
+/// \cost One pass over the list.
 template <typename Photons>
 requires requires(const Photons& p) {
     { p[p.size() - 1].kind } -> std::convertible_to<PhotonKind>;
@@ -68,7 +69,7 @@ requires requires(const Photons& p) {
     return result;
 }
 
-/// Counts the photons of a map.
+/// Counts the photons of a map, by kind.
 template <std::floating_point T>
 [[nodiscard]] PhotonCensus census(const PhotonMapT<T>& map) {
     return census(map.records);

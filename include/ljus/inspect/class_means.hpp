@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/class_means.hpp
-/// \brief The mean radiance of a picture by classes of paths, in one pass.
+/// \brief The mean radiance that each class of paths adds to a picture.
 
 #include <span>
 #include <vector>
@@ -14,20 +14,20 @@ namespace ljus {
 /// \addtogroup light_path_expression
 /// \{
 
-/// The mean radiance of a picture that a renderer really computes, class by class.
+/// The mean radiance over all pixels that each class of paths adds to a picture.
 ///
-/// It is measured from the letters that the renderer reports. All classes see the same
-/// random paths; the means of disjoint classes that cover all paths add up to the mean
-/// of the picture.
+/// The renderer reports each term with the letters of its path, from which the class is
+/// known. All classes are measured on the same random paths. The means of disjoint
+/// classes that cover all paths add up to the mean of the picture.
 /// \param renderer  Any Renderer.
 /// \param camera    As for render().
 /// \param picture   As for render(), but progress is not called.
-/// \param classes   From light_path_expression(). A photon map's answer for a class of
-///                  paths, such as "DS+L", counts as its shortest path; see
-///                  ExpressionLog.
-/// \return W/(m^2 sr), one per class, the same for any number of threads.
+/// \param classes   Classes made by light_path_expression(). A photon map reports one
+///                  term for many paths, such as "DS+L"; the term counts as the
+///                  shortest of them, see ExpressionLog.
+/// \return One mean per class, W/(m^2 sr), the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
-/// \cost One picture, and a few bit operations per letter and class.
+/// \cost One picture, and a few bit operations per letter of a path and class.
 /// \report{Section 2}
 template <typename R, CameraLike C>
 [[nodiscard]] std::vector<RgbT<double>>

@@ -11,18 +11,19 @@
 namespace ljus {
 
 /// \defgroup estimate Estimates
-/// \brief Sections 1 and 2.1, Monte Carlo: a mean with its standard error. Chapter:
-/// \ref ch_monte_carlo.
+/// \brief The result of a Monte Carlo method: a mean with its standard error (Sections
+/// 1 and 2.1). Chapter: \ref ch_monte_carlo.
 /// \{
 
 /// A running mean and variance, by Welford's sums \cite welford1962.
 ///
-/// The sums of x^2 and x would suffice in exact arithmetic, but they cancel where the
-/// mean is large against the deviation. Welford's sums hold distances from the mean.
+/// Variance could be computed from the sums of x and of x^2. Where the mean is much
+/// larger than the deviation, the difference of these sums is lost by rounding.
+/// Welford's sum of squared distances from the mean keeps its precision.
 struct Estimate {
     double count = 0;   ///< n, the number of samples.
-    double mean = 0;    ///< Their mean: the estimate.
-    double squares = 0; ///< Sum of (x - mean)^2.
+    double mean = 0;    ///< Mean of the samples.
+    double squares = 0; ///< Sum of (x - mean)^2 over the samples x.
 };
 
 /// Adds one sample.
@@ -49,7 +50,8 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 }
 
 /// The unbiased estimate of the variance of one sample.
-/// \return Sum of (x - mean)^2 over n - 1; infinity for fewer than 2 samples.
+/// \return The sum of (x - mean)^2 over all samples x, divided by n - 1; infinity for
+///         fewer than 2 samples.
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return estimate.squares / (estimate.count - 1);
@@ -57,8 +59,8 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 
 /// The standard error: the standard deviation of the mean of n samples.
 ///
-/// *Trap*: it is an estimate itself, from the same samples. Where the variance is
-/// infinite, or the light is rare, it is too small.
+/// *Trap*: the standard error is itself estimated from the same samples. It is too
+/// small where the variance is infinite, or where few samples find the light.
 /// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);

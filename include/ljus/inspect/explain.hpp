@@ -25,7 +25,7 @@ namespace detail {
 
 /// The contribution of one kind of path to a pixel.
 struct PathSum {
-    std::string path;    ///< Heckbert's letters, as "EDSL".
+    std::string path;    ///< Heckbert's letters, such as "EDSL".
     std::string owner;   ///< The technique: "emission", "shadow ray", ...
     glm::dvec3 value{0}; ///< Contribution to the pixel's radiance.
     long long terms = 0; ///< The number of terms in the sum.
@@ -36,17 +36,18 @@ struct PathSum {
 /// The contributions to a pixel.
 template <std::floating_point T>
 struct ExplainedPixelT {
-    RgbT<T> radiance{T(0)};              ///< As in render(), to the last bit.
-    std::vector<detail::PathSum> sums{}; ///< Brightest first; they sum to radiance.
+    RgbT<T> radiance{T(0)};              ///< The same as in render(), to the last bit.
+    std::vector<detail::PathSum> sums{}; ///< Contributions, brightest first; their sum
+                                         ///< is the radiance.
     std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.
     int samples = 0;                     ///< The number of rays.
-    int rejected = 0; ///< Rays that are left out because they were not finite.
+    int rejected = 0; ///< Rays that are left out because their radiance is not finite.
 };
 
 namespace detail {
 
-/// Renders one pixel again, with a log, and keeps the first `keep` rays in full; as
-/// explain().
+/// Renders one pixel again and logs its terms. The first `keep` rays are kept in full.
+/// The other parameters are those of explain().
 template <typename R, CameraLike C>
 [[nodiscard]] ExplainedPixelT<typename C::Scalar>
 take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
@@ -96,7 +97,7 @@ take_apart(const R& renderer, const C& camera, const RenderSettings& picture, in
     return pixel;
 }
 
-// "EDSL" as "E D S L".
+// Spaces the letters of a path: "EDSL" becomes "E D S L".
 inline std::string spaced(const std::string& letters) {
     std::string text;
     for (const char c : letters) {
@@ -117,7 +118,7 @@ inline std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-// "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
+// A line such as "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
 inline std::string line_of(const std::string& letters, const std::string& what,
                            const glm::dvec3& value) {
     return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) +
@@ -136,8 +137,8 @@ inline std::string line_of(const PathLogLine& step) {
            (step.pdf > 0 ? density : ", delta");
 }
 
-/// The contributions to a pixel as text; only the `most` brightest sums are printed,
-/// and the rest is added up.
+/// The contributions to a pixel as text. The `most` brightest sums are printed line by
+/// line, and all others as one sum.
 template <std::floating_point T>
 [[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
                                    std::size_t most = 16) {
@@ -175,8 +176,8 @@ template <std::floating_point T>
 /// \param picture   Size, rays, seed: the same as in render().
 /// \param x         Column of the pixel, from the left.
 /// \param y         Row of the pixel, from the top.
-/// \return A text: the first rays with each vertex and each term, then the sums by
-///         path, such as "E D L   shadow ray   0.31 0.30 0.28".
+/// \return A text: the first rays with each vertex and each term, then the sum over all
+///         rays for each kind of path, such as "E D L shadow ray 0.31 0.30 0.28".
 /// \throws std::invalid_argument  if the pixel lies outside the picture.
 template <typename R, CameraLike C>
 [[nodiscard]] std::string explain(const R& renderer, const C& camera,

@@ -21,14 +21,14 @@ namespace ljus {
 /// \brief Means over pixels and channels of linear radiance, computed in double.
 ///
 /// x is the picture and r the reference. Every metric is at least 0, and 0 for equal
-/// pictures; NaN in a picture makes it NaN. The reference should come from another
-/// algorithm and seed, with an error of at most a tenth of the measured one. No metric
-/// is enough alone: state relMSE with the block error (bias) and the trimmed error
-/// (fireflies).
+/// pictures; a NaN in a picture makes the metric NaN. The reference should come from
+/// another algorithm and seed, with at most a tenth of the error to be measured. One
+/// metric alone is not enough: state relMSE together with the block error, which shows
+/// bias, and the trimmed error, which leaves out fireflies.
 /// \{
 
-/// The epsilon of the relative metrics, for scenes of mean radiance near 1; for others
-/// use (0.1 times the mean radiance)^2.
+/// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
+/// other scenes use the square of 0.1 times the mean radiance.
 inline constexpr double default_epsilon = 0.01;
 
 namespace detail {
@@ -69,10 +69,11 @@ struct RelativeSquare {
 
 } // namespace detail
 
-/// The root mean square error, sqrt(mean (x - r)^2).
-/// It is the metric of theory: for an unbiased method it falls as 1/sqrt(n).
-/// *Trap*: a few highlights dominate it; it says nothing of the dark regions.
-/// \return In units of radiance.
+/// The root mean square error, sqrt(mean (x - r)^2). Theory uses this metric: for an
+/// unbiased method with n samples it falls as 1/sqrt(n).
+///
+/// *Trap*: a few highlights dominate the metric, and dark regions hardly count.
+/// \return The error, in units of radiance.
 /// \throws std::invalid_argument  as require_same_size().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rmse(const ImageT<T>& image, const ImageT<U>& reference) {
@@ -80,12 +81,11 @@ template <std::floating_point T, std::floating_point U>
     return std::sqrt(detail::mean(detail::pixel_errors(image, reference, square)));
 }
 
-/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
-/// \cite rousselle2011.
-/// It is relative, like the eye, and the default here.
-/// *Trap*: values with different epsilons, or with the divisor (r + epsilon)^2 of some
-/// tools, are not comparable; state the epsilon.
-/// The epsilon is a squared radiance above 0, the scale of darkness.
+/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon), after
+/// \cite rousselle2011. Like the eye, the metric responds to relative differences.
+/// *Trap*: values with different epsilons cannot be compared, nor values of tools that
+/// divide by (r + epsilon)^2. State the epsilon. It is a squared radiance above 0, and
+/// pixels darker than its root count less.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
@@ -96,12 +96,11 @@ template <std::floating_point T, std::floating_point U>
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
 }
 
-/// The relative mean square error without the worst pixels.
-/// Dropping the worst 1 % removes fireflies, and measures the rest of the picture: the
-/// worst floor(dropped * pixels) go, by their mean over the channels. `dropped` is in
-/// [0, 1).
-/// *Trap*: it favours a method that puts its energy into fireflies; state it beside
-/// rel_mse(), never instead of it.
+/// The relative mean square error of a picture without its worst pixels. The fraction
+/// `dropped` of the pixels is left out, in [0, 1): those whose error, as a mean over
+/// the channels, is largest. Without the worst 1 % the metric measures the picture but
+/// for its fireflies. *Trap*: the metric favours a method that puts much light into few
+/// pixels. State it beside rel_mse(), never in its place.
 /// \return Dimensionless, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>
@@ -113,10 +112,10 @@ template <std::floating_point T, std::floating_point U>
             "within [0, 1)");
     std::vector<double> errors =
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon});
-    // NaN cannot be ordered: return it.
+    // A NaN cannot be ordered, and is returned.
     for (const double error : errors)
         if (std::isnan(error)) return error;
-    // The factor covers a product that was rounded down below an integer.
+    // The factor helps if the product was rounded to just below an integer.
     const double count = static_cast<double>(errors.size());
     const auto worst = static_cast<std::ptrdiff_t>(dropped * count * (1.0 + 1e-12));
     const auto end = errors.end() - worst;
@@ -125,9 +124,9 @@ template <std::floating_point T, std::floating_point U>
     return detail::mean(errors);
 }
 
-/// The image of block means: each pixel is the mean of size x size pixels.
-/// If the width or height is no multiple of the block's side, the last column or row of
-/// blocks is narrower and takes the mean of its pixels.
+/// The image of block means: each pixel is the mean of a square block of pixels. If the
+/// width or height is no multiple of the block's side, the blocks of the last column or
+/// row are narrower, and each is the mean of the pixels that it has.
 /// \param image  The picture.
 /// \param size   Side of a block in pixels, at least 1.
 /// \return An image of ceil(width/size) x ceil(height/size), in double.
@@ -150,12 +149,13 @@ template <std::floating_point T>
     return means;
 }
 
-/// The relMSE of the means of 10 x 10 blocks, which measures bias.
-/// Noise that is independent between pixels is 100 times weaker in a squared block
-/// mean; an error that neighbours share stays. A blur within a block does not show.
-/// *Trap*: neighbouring pixels share photons, so that the noise of photon maps survives
-/// too; use several seeds and bias_variance() for them. Narrow blocks at the right and
-/// lower edge (see block_means()) have the weight of whole ones.
+/// The relMSE between the block means of two pictures, by default of 10 x 10 pixels. It
+/// measures bias. In the squared error of such a block, noise that is independent
+/// between pixels is 100 times weaker, but an error that neighbouring pixels share is
+/// as large as before. A blur that stays within blocks does not show. *Trap*: with
+/// photon maps neighbouring pixels share photons, so that their noise remains in the
+/// block means too; use several seeds and bias_variance() there. Narrow blocks at the
+/// right and lower edge (see block_means()) have the weight of whole ones.
 /// \return Dimensionless.
 /// \throws std::invalid_argument  as rel_mse() and block_means().
 template <std::floating_point T, std::floating_point U>
@@ -167,20 +167,20 @@ template <std::floating_point T, std::floating_point U>
 
 /// The two terms of a mean square error.
 struct BiasVariance {
-    double bias_squared = 0.0; ///< Mean of (expected x - r)^2: stays with more seeds.
-    double variance = 0.0;     ///< Mean variance of x in one run: noise.
+    double bias_squared = 0.0; ///< Mean of (E[x] - r)^2, the squared bias.
+    double variance = 0.0;     ///< Mean variance of x in one run, the noise.
 };
 
-/// Splits the mean square error of a method by running it with several seeds.
-/// For each pixel and channel, with m the mean of the M runs:
-/// variance = sum (x - m)^2 / (M - 1) and bias^2 = (m - r)^2 - variance / M, which
-/// subtracts the noise left in m. Their sum is the expected mean square error of a run.
-/// Noise that neighbouring pixels share, as with photon maps, does not count as bias,
-/// because whole runs are compared.
-/// *Trap*: without bias the estimate of bias^2 may be negative by chance; clamping it
-/// would itself be a bias.
+/// Splits the mean square error of a method by running it with several seeds. For each
+/// pixel and channel, m is the mean of the M runs. Then variance = sum (x - m)^2 / (M -
+/// 1), and bias^2 = (m - r)^2 - variance / M, where the last term is the noise that m
+/// still has. The sum of bias^2 and variance is the expected mean square error of a
+/// run. Noise that neighbouring pixels share, as with photon maps, does not count as
+/// bias, because whole runs are compared. *Trap*: the estimate of bias^2 for a method
+/// without bias may be negative by chance. It is not clamped to 0, because that would
+/// bias the estimate.
 /// \param runs       At least 2 pictures of the same size, with independent seeds.
-/// \param reference  The reference, of that size; its own variance is in the result.
+/// \param reference  The reference, of that size. Its own noise adds to bias^2.
 /// \return Both terms, in units of radiance squared.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
 template <std::floating_point T, std::floating_point U>
@@ -210,16 +210,15 @@ template <std::floating_point T, std::floating_point U>
 /// The block means of several runs of one method.
 struct BlockStatistics {
     ImageT<double> mean;           ///< Mean over all runs, block by block.
-    ImageT<double> standard_error; ///< Its standard error, channel by channel.
+    ImageT<double> standard_error; ///< Standard error of that mean, channel by channel.
     std::size_t runs = 0;          ///< The number of runs.
 };
 
-/// Computes the block means of several runs, with standard errors.
-/// With b the mean of a block in one of M runs and m the mean of the b:
-/// standard error = sqrt(sum (b - m)^2 / (M - 1) / M). It holds for photon maps too,
-/// whose pixels are correlated, because whole runs are compared.
-/// *Trap*: the standard error from M runs has a relative error of 1/sqrt(2(M - 1))
-/// itself: 71 % with two runs, 18 % with 16.
+/// Computes the block means of several runs, with standard errors. Let b be the mean of
+/// a block in one of M runs, and m the mean of all b. Then the standard error of m is
+/// sqrt(sum (b - m)^2 / (M - 1) / M). This holds for photon maps too, whose pixels are
+/// correlated, because whole runs are compared. *Trap*: the standard error is itself an
+/// estimate. Its relative error is 1/sqrt(2(M - 1)): 71 % with two runs, 18 % with 16.
 /// \param runs  At least 2 pictures of the same size, with independent seeds.
 /// \param size  Side of a block in pixels, at least 1.
 /// \return Means and standard errors, in units of radiance.

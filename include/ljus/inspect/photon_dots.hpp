@@ -17,17 +17,18 @@
 namespace ljus {
 
 /// \defgroup photon_dots Photons as dots
-/// \brief Section 3.2.2: the visualisations of figures 5 to 8.
+/// \brief Drawings of photons as in figures 5 to 8 of the report (Section 3.2.2).
 /// \{
 
-/// The look of a dot: a cone of light, of the same size at any distance.
+/// The look of a dot. Its brightness falls linearly from the middle to the edge, like a
+/// cone, and its size does not depend on distance.
 struct PhotonDotSettings {
-    float radius = 1.0f;     ///< Radius of the cone in pixels, above 0.
-    float brightness = 0.8f; ///< Brightness at its tip; overlapping dots add up.
+    float radius = 1.0f;     ///< Radius of the dot in pixels, above 0.
+    float brightness = 0.8f; ///< Brightness in the middle; overlapping dots add up.
 };
 
 /// A background for photons: the colours of the surfaces without lighting, darkened at
-/// low angles. Mirrors and glass are grey, lamps bright.
+/// low angles. Mirrors and glass are grey, and lamps are bright.
 /// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray per pixel.
 template <AnyWorld W, std::floating_point T>
@@ -54,8 +55,8 @@ template <AnyWorld W, std::floating_point T>
     return image;
 }
 
-/// The colour of a photon's dot: that of its flux, at full brightness. A shadow photon
-/// has the yellow of the report's program.
+/// The colour of a photon's dot: the colour of its flux, scaled to full brightness.
+/// Shadow photons are yellow, as in the report's program.
 /// \return Linear RGB, its largest channel 1; black if there is no flux.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> dot_color(const PhotonT<T>& photon) noexcept {
@@ -66,8 +67,10 @@ template <std::floating_point T>
 
 /// The position of a photon in the picture. The photon is visible if nothing, glass
 /// included, lies between it and the camera, and if it is on the side of its surface
-/// that faces the camera. An occluder must be nearer by a thousandth of the distance.
-/// \return The position in pixels, from the upper left corner; nothing if it is hidden.
+/// that faces the camera. An occluder counts only if it is nearer than the photon by a
+/// thousandth of the distance or more.
+/// \return The position in pixels, from the upper left corner; nothing if the photon is
+///         hidden or outside the picture.
 /// \cost One ray.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>
@@ -108,8 +111,9 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 
 } // namespace detail
 
-/// Draws photons of any kind over a picture of their scene, from scene_drawing(). The
-/// colour is called with each photon; black draws nothing, and saves the ray.
+/// Draws photons over a picture of their scene, such as one made by scene_drawing().
+/// The function `color` returns the colour of a photon's dot, such as dot_color(). A
+/// photon with a black dot is skipped.
 /// \return The number of photons that were drawn.
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
 /// \cost One ray per drawn photon that lies within the picture.

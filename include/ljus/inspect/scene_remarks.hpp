@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/inspect/scene_remarks.hpp
-/// \brief Warnings about a scene: what a renderer shows badly, and a remedy.
+/// \brief Warnings about a scene that a renderer shows badly, each with a remedy.
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +29,11 @@ namespace ljus {
 
 namespace detail {
 
-/// The part of a photon's flux that estimates find on the surfaces along one line
-/// through the photon's disc. On a flat surface it is about the kernel's weight.
-/// \param offset   From it to the line, within the disc, in units of the radius.
+/// The part of a photon's flux that estimates find on the surfaces along one line,
+/// which crosses the photon's disc at a right angle. On a flat surface this is about
+/// the kernel's weight.
+/// \param offset   The vector from the photon to the line, within the disc, in units of
+///                 the radius.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard]] double found_along(const W& world, const SurfacePointT<T>& photon,
                                  const Vec3T<T>& offset,
@@ -47,7 +49,7 @@ template <AnyWorld W, std::floating_point T, typename K>
         const auto point = vertex_at(world, line, *hit).point;
         const Vec3T<T> way = point.position - photon.position;
         const T distance2 = glm::dot(way, way) / (radius * radius);
-        const T cosine = glm::dot(point.normal, photon.normal); // as turned_away()
+        const T cosine = glm::dot(point.normal, photon.normal); // as in turned_away()
         if (cosine > T(0.5) && distance2 < T(1) &&
             std::abs(glm::dot(way, point.normal)) < height)
             found += double(kernel_weight(gather.kernel, distance2) / cosine);
@@ -58,12 +60,12 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 } // namespace detail
 
-/// The light that estimates lose where their disc is wider than an object: the part of
-/// its photons' flux that is spread beyond its edges, for the object that loses most.
-/// The objects on which few of the sampled photons landed are taken together. All
-/// photons within the radius count, not the k nearest; the seed is that of the places
-/// in the discs.
-/// \return In [0, 1]; 0 if fewer than 16 photons landed on each object.
+/// The fraction of light that estimates lose at the edges of an object, for the object
+/// that loses most. An estimate spreads each photon over a disc, and flux beyond the
+/// edges of the object is lost. Objects with few sampled photons count together, as one
+/// object. Estimates are assumed to use all photons within the radius. The seed is for
+/// random points in the discs.
+/// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in all.
 /// \cost Five rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,
@@ -84,7 +86,7 @@ template <AnyWorld W, std::floating_point T, typename K>
         const Vec3T<T> normal = glm::normalize(Vec3T<T>(photon.normal));
         const T near = T(1e-3f * gather.radius);
         const auto vertex = detail::vertex_below(world, place, normal, near);
-        if (!vertex || vertex->emits()) continue; // what a lamp reflects hardly shows
+        if (!vertex || vertex->emits()) continue; // reflections of lamps hardly show
         const FrameT<T> frame = frame_around(vertex->point.normal);
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
         Landed landed{.object = vertex->id};
@@ -131,13 +133,14 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 namespace detail {
 
-/// Warns if fewer than three digits of a shape remain, or if lengths are too large.
+/// Warns if coordinates leave fewer than three digits for a shape, or if lengths are
+/// too large for T.
 ///
-/// A number x of p bits has an error of up to 2^-p x. A ball of radius r with
-/// coordinates up to c then has a relative error of 2^-p c / r in its surface, which
-/// leaves log10(2^p r / c) digits. The direction of a shadow ray is as long as the ray,
-/// and chord() multiplies four lengths: above the fourth root of the largest number, a
-/// ball may cast no shadow.
+/// A number x with a mantissa of p bits has an error of up to 2^-p x. The surface of a
+/// ball of radius r with coordinates up to c then has an error of 2^-p c / r, relative
+/// to r. This leaves log10(2^p r / c) decimal digits. The direction of a shadow ray is
+/// as long as the ray, and chord() multiplies four lengths. A ball may therefore cast
+/// no shadow if a length exceeds the fourth root of the largest number.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string digits_remark(const W& world) {
     using T = typename W::Scalar;
@@ -185,12 +188,12 @@ template <AnyWorld W>
                         : "move the scene towards the origin"});
 }
 
-/// The number of objects with a glossy lobe below a thousandth of a steradian: a shadow
-/// ray hardly ever lies in so narrow a lobe.
+/// The number of objects with a glossy lobe so narrow that a shadow ray hardly ever
+/// lies in it: its density is above 1000 per steradian.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::size_t narrow_lobes(const W& world) {
     using T = typename W::Scalar;
-    // By a facet that lies almost flat.
+    // A direction that is reflected by a facet almost parallel to the surface.
     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, u{T(0.5), T(0), T(0.5)};
     const auto narrow = [&](const auto& material) {
         const auto& here = material_at(material, Vec3T<T>{T(0)}, Vec2T<T>{T(0)});
@@ -205,10 +208,10 @@ template <AnyWorld W>
     return count;
 }
 
-/// Sentences about light of all times that lies in one map, in a scene where something
-/// moves.
+/// Remarks about a scene where something moves, because one photon map holds the light
+/// of all times.
 /// \param caustics  Whether a caustics map is looked up.
-/// \param gathered  Whether rays end at the general map.
+/// \param gathered  Whether indirect rays end at a lookup of the general map.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string>
 moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
@@ -236,7 +239,7 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
     return remarks;
 }
 
-/// A sentence about objects whose light is lost at their edges.
+/// A remark about objects that lose light at their edges, as edge_loss() has found.
 /// \return Empty if little is lost, or with a line feed.
 [[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
     if (!(lost > 0.2)) return {};
@@ -247,7 +250,8 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
          "carry it\n"});
 }
 
-/// The number of materials whose facets have slopes beyond a right angle.
+/// The number of materials with a `sigma` above 1.6 radians, which was probably meant
+/// in degrees.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
     long long steep = 0;
@@ -259,8 +263,8 @@ template <AnyWorld W>
     return steep;
 }
 
-/// Adds a sentence for each rule that decides what is met where surfaces of different
-/// objects lie in one place.
+/// Adds remarks about surfaces of different objects that lie in one place. There is one
+/// remark for each rule that decides which surface a ray meets.
 /// \param type_of  The name of an object's shape, such as "QuadT<float>".
 [[gnu::cold]] LJUS_CORE_INLINE void
 add_contact_remarks(const Contacts& contacts,
@@ -270,29 +274,29 @@ add_contact_remarks(const Contacts& contacts,
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
 /// The rule that decides a contact, as the end of a sentence.
-/// \return Null if it is of no interest: surfaces that touch in points, and opaque ones
-///         back to back.
+/// \return Null if no remark is needed: surfaces that touch only in points, or opaque
+///         surfaces back to back.
 [[nodiscard, gnu::cold]] inline const char*
 contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcept {
     if (!contact.over_area) return nullptr;
     if (other == ContactKind::sheet)
         return "the thin surface has no effect there; move it away from the other one";
     if (met == ContactKind::lamp)
-        return other == ContactKind::lamp ? "of two lamps paths meet the brighter one, "
-                                            "but shadow rays find both; "
+        return other == ContactKind::lamp ? "paths meet only the brighter of two "
+                                            "lamps, but shadow rays find both; "
                                             "move or remove one"
-                                          : "the lamp is met there";
+                                          : "rays meet the lamp there";
     if (met == ContactKind::body)
         return contact.opposed ? "light passes from one body into the other; for air "
                                  "between them, move "
                                  "them apart"
-                               : "the body of the higher index is met there; let one "
-                                 "end before the other";
+                               : "rays meet the body of the higher index there; let "
+                                 "one end before the other";
     if (other == ContactKind::body)
-        return "light passes from the body to what is opaque; for air between them, "
-               "move them apart";
-    return contact.alike ? "of two opaque surfaces that is met whose material covers "
-                           "less of the scene"
+        return "light passes from the body to the opaque surface; for air between "
+               "them, move them apart";
+    return contact.alike ? "rays meet the opaque surface whose material covers less "
+                           "of the scene"
                          : nullptr;
 }
 
@@ -333,16 +337,18 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
              to_text(Vec3((first->box.low + first->box.high) / 2.0)), ": ", rule}));
     if (!contacts.complete)
         remarks.push_back("too many objects overlap to compare all of them: where "
-                          "surfaces lie in one place, their order may decide what is "
-                          "met");
+                          "surfaces lie in one place, their order may decide which one "
+                          "rays meet");
 }
 
 #endif
 
-/// Warns of bodies that lie in each other without an order, and of thin surfaces in a
-/// body. A point in the middle of what two bounding boxes share tells; not each overlap
-/// is found, but what is found overlaps.
-/// \cost A ray per surface for each two bodies whose boxes overlap, up to 4096.
+/// Warns of transparent bodies that overlap with equal priority, and of thin surfaces
+/// inside a body. For each two objects, one point is tested: the middle of the region
+/// that their bounding boxes share. Some overlaps are therefore not found, but every
+/// reported one is real.
+/// \cost A few rays for each pair of bodies whose boxes overlap, for at most 4096
+///       pairs.
 template <AnyWorld W>
 [[gnu::cold]] void add_overlap_remarks(const W& world,
                                        std::vector<std::string>& remarks) {
@@ -393,14 +399,14 @@ template <AnyWorld W>
                                     "and that of the higher index holds: give them "
                                     "different priorities; around "
                                   : "transparent bodies overlap, and each surface "
-                                    "counts as one between its body and air: give "
-                                    "them priorities; around ");
+                                    "is taken for a boundary between its body and air: "
+                                    "give them priorities; around ");
         }
 }
 
-/// The share of all directions in which the middle of a scene sees a sky: about half in
-/// the open, little in a room with a window, and 0 without a sky.
-/// \cost 256 rays in a scene that lists a light that fills the sky.
+/// The fraction of all directions in which the sky is visible from the middle of a
+/// scene: about half in the open, little in a room with a window, 0 without a sky.
+/// \cost 256 rays if the scene has a light that fills the sky.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] double share_of_sky([[maybe_unused]] const W& world) {
     using T = typename W::Scalar;
@@ -465,9 +471,9 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     return remarks;
 }
 
-/// The warnings about a photon mapper: those of scene_remarks(), then those of its
-/// passes.
-/// \return One per line, each with a line feed.
+/// The warnings about a photon mapper: those of scene_remarks(), then those about its
+/// photon passes.
+/// \return The warnings, one per line, each with a line feed.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;
@@ -488,9 +494,9 @@ template <typename Mapper>
     return lines;
 }
 
-/// The remarks for path tracing: those of scene_remarks(), and the light that no path
-/// carries. A path meets lamps and the sky, but no light without a size.
-/// \return As scene_remarks().
+/// The remarks for path tracing: those of scene_remarks(), and one about light that no
+/// path carries. A path may meet a lamp or the sky, but never a light without a size.
+/// \return Sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {
     // Paths sample narrow lobes themselves, as with DirectLight::mis.

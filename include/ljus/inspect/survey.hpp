@@ -14,14 +14,13 @@
 namespace ljus {
 
 /// \defgroup survey The survey
-/// \brief "Model only what a scene requires": each pass states what it needs of a
-/// scene.
+/// \brief A list of the passes of a renderer that a scene requires, with reasons.
 /// \{
 
 /// Whether a pass runs, and the reason.
 struct PlanItem {
-    const char* pass = ""; ///< Its name.
-    bool on = false;       ///< True if it runs.
+    const char* pass = ""; ///< Name of the pass.
+    bool on = false;       ///< Whether the pass runs.
     std::string why;       ///< The reason, as one clause.
 };
 
@@ -32,14 +31,15 @@ struct Plan {
     PlanItem caustics_map;    ///< Photons through mirrors and glass.
     PlanItem general_map;     ///< Direct, indirect and shadow photons.
     PlanItem volume_map;      ///< Photons where fog scatters them.
-    PlanItem shadow_photons;  ///< Stored in the general map.
-    PlanItem skipped_rays;    ///< Shadow rays that photons replace.
-    PlanItem skipped_bounces; ///< Indirect rays with no indirect photon near.
-    PlanItem irradiance;      ///< Precomputed at photons, for gather rays.
+    PlanItem shadow_photons;  ///< Shadow photons in the general map.
+    PlanItem skipped_rays;    ///< Shadow rays that photons make unnecessary.
+    PlanItem skipped_bounces; ///< Indirect rays, omitted where no indirect photon is
+                              ///< near.
+    PlanItem irradiance;      ///< Irradiance points, which gather rays look up.
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
-    PlanItem thin_film;       ///< Paths pass through soap films.
-    PlanItem tree;            ///< A tree over the shapes, or a loop over them.
-    /// Warnings about passes that work badly, with a remedy; most scenes have none.
+    PlanItem thin_film;       ///< Thin surfaces, through which paths pass.
+    PlanItem tree;            ///< A tree over the shapes; off: a loop over them.
+    /// Warnings about the scene, each with a remedy; most scenes have none.
     std::vector<std::string> remarks;
 
     /// All items, in the order of printing.
@@ -48,7 +48,7 @@ struct Plan {
                 &volume_map,  &shadow_photons, &skipped_rays, &skipped_bounces,
                 &irradiance,  &cache,          &thin_film,    &tree};
     }
-    /// Deleted for temporaries, whose items would be gone before they are read.
+    /// Deleted for temporary plans, whose items would not exist when they are read.
     std::array<const PlanItem*, 12> items() const&& = delete;
 };
 
@@ -72,8 +72,8 @@ struct Plan {
 
 namespace detail {
 
-/// How a plan describes the choices for caustics: how photons are distributed, and
-/// where the radius comes from.
+/// The words of a plan for the choices about caustics: how photons are distributed, and
+/// whether the radius is chosen from the photons.
 /// \return The end of a clause; empty if nothing is chosen.
 [[nodiscard]] inline std::string
 caustics_clause(const PhotonMappingSettings& settings) {
@@ -98,13 +98,12 @@ caustics_clause(const PhotonMappingSettings& settings) {
     }
 }
 
-/// Makes the plan: choose_passes() with reasons. Thin films and the tree are decided by
-/// the same tests as during rendering.
+/// Makes the plan: the decisions of choose_passes(), with reasons.
 [[nodiscard]] LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
-// Such as "3 of 7 objects mirror or refract".
+// A text such as "3 of 7 objects mirror or refract".
 inline std::string of_all(const SceneNeeds& found, std::size_t count,
                           const char* what) {
     return std::to_string(count) + " of " + std::to_string(found.objects) +
@@ -160,7 +159,7 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                            ? std::to_string(found.fog) + " medium(s) scatter light"
                            : "nothing lights the fog but shadow rays"};
     plan.shadow_photons = {"shadow photons", run.shadow_photons,
-                           run.skipped_rays ? "they show which shadow rays are needless"
+                           run.skipped_rays     ? "they show which shadow rays to skip"
                            : run.shadow_photons ? "the general map keeps them"
                                                 : "no map keeps them"};
 }
@@ -221,7 +220,7 @@ LJUS_CORE_INLINE Plan make_plan(const SceneNeeds& found,
 // The longest side of the box around a scene, with three digits.
 template <AnyWorld W>
 [[gnu::cold]] std::string extent_of(const W& world) {
-    BoxT<typename W::Scalar> box; // world.box() is that of the bounding spheres
+    BoxT<typename W::Scalar> box; // world.box() contains bounding spheres
     world.each_object([&](ObjectId id, const auto&) {
         box = box_union(box, world.visit_shape(id, [](const auto& shape) {
             return box_around(shape);
@@ -235,12 +234,12 @@ template <AnyWorld W>
 
 } // namespace detail
 
-/// Reports which passes a scene requires.
+/// Reports which passes of a PhotonMapper a scene requires.
 /// \return The plan that a PhotonMapper follows.
 template <AnyWorld W>
 [[nodiscard]] Plan survey(const W& world, const PhotonMappingSettings& settings) {
     Plan plan = detail::make_plan(needs(world), settings);
-    // A length in another unit than the scene's is seen beside its size.
+    // Beside the size of the scene, a radius in a wrong unit is noticed.
     const auto add_radius = [&](PlanItem& item, float radius) {
         if (item.on && radius > 0)
             item.why += "; radius " + to_text(radius) + " in a scene " +
@@ -263,9 +262,9 @@ template <AnyWorld W>
 /// Reports which hooks the types of a scene have.
 /// \param world  The closed scene; only its type is used.
 /// \return One line per type of shape, material and light that the scene lists, in
-///         their order: its name, the hooks that it has, and what happens without the
+///         their order. A line has the name of the type, the hooks that it has, and
+///         what happens without the other hooks. A misspelt hook appears among the
 ///         others.
-///         A misspelt hook is among the others.
 template <AnyWorld W>
 [[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {
     std::vector<std::string> lines;

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/binary_file.hpp
-/// \brief Files of numbers with a checked header, the same on every machine.
+/// \brief Binary files with a checked header, whose bytes are the same on every
+/// machine.
 
 #include <algorithm>
 #include <array>
@@ -17,18 +18,20 @@
 namespace ljus {
 
 /// \defgroup binary_file Files of numbers
-/// \brief The format of light maps, photon maps, checkpoints and slices of pictures.
+/// \brief The format in which light maps, photon maps, checkpoints and slices of
+/// pictures are saved.
 ///
-/// A file has 16 letters that name its format; the version, 4 bytes; 12 bytes that the
-/// format defines; a checksum of everything else behind the letters, 8 bytes; then
-/// numbers, exact to the last bit, lowest byte first. file_front(), put_number() and
-/// put_checksum() make it, and save_file() writes it; open_file() reads it.
+/// A file begins with a header of 40 bytes: 16 letters that name the format; 4 bytes
+/// for the version; 12 bytes that the format defines; 8 bytes for a checksum of all
+/// other bytes after the letters. Numbers follow, lowest byte first, without any
+/// rounding. file_front(), put_number() and put_checksum() make the bytes of a file,
+/// save_file() writes them, and open_file() reads them.
 /// \{
 
 /// A file format.
 struct FileFormat {
     std::string_view magic;    ///< The 16 letters that a file begins with.
-    std::uint32_t version = 1; ///< The version that is written and read.
+    std::uint32_t version = 1; ///< The only version that is written and read.
 };
 
 /// The size of the header, from the letters to the checksum.
@@ -37,16 +40,17 @@ inline constexpr std::size_t file_front_bytes = 40;
 namespace detail {
 
 inline constexpr std::size_t checksum_place = 32;
-inline constexpr std::size_t key_bytes = 8; // behind the header, if there is a key
+inline constexpr std::size_t key_bytes = 8; // size of the key, which follows the header
+                                            // of some formats
 
-// The largest size of a file with `most` entries; without limit if that overflows.
+// The largest size of a file with `most` entries; the largest size_t if that overflows.
 inline std::size_t file_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
     const std::size_t all = static_cast<std::size_t>(-1);
     const std::size_t front = file_front_bytes + key_bytes;
     return most < (all - front) / bytes_of_one ? front + most * bytes_of_one : all;
 }
 
-// The number whose bytes begin at `place`, which must be in the file.
+// The number whose bytes begin at `place`. All of them must be in the file.
 template <typename Number>
 [[nodiscard]] Number number_at(const Bytes& bytes, std::size_t place) noexcept {
     std::uint64_t bits = 0;
@@ -58,7 +62,7 @@ template <typename Number>
         return static_cast<Number>(bits);
 }
 
-// The checksum of the version and all that follows, without the checksum itself.
+// The checksum of all bytes after the letters, except the checksum itself.
 inline std::uint64_t checksum(const Bytes& bytes) noexcept {
     std::uint64_t hash = fnv_start;
     for (std::size_t i = 16; i < bytes.size(); ++i)
@@ -81,8 +85,8 @@ void put_vector(Bytes& bytes, const Vector& v) {
     for (int axis = 0; axis < 3; ++axis) put_number(bytes, v[axis]);
 }
 
-/// Makes the header of a file; put_checksum() completes it.
-/// \param format  The format.
+/// Makes the header of a file. The checksum is set later, by put_checksum().
+/// \param format  The letters and the version.
 /// \param own     Integers that the format defines, 12 bytes in total.
 /// \return 40 bytes.
 template <typename... Own>
@@ -101,13 +105,13 @@ inline void put_checksum(Bytes& bytes) {
     std::copy(sum.begin(), sum.end(), bytes.begin() + detail::checksum_place);
 }
 
-/// A file that is read from front to back.
+/// A file that has been loaded and is read from front to back.
 struct FileReader {
-    std::string path;         ///< For messages.
+    std::string path;         ///< The path of the file, for messages.
     Bytes bytes;              ///< The whole file.
     std::size_t position = 0; ///< Index of the next byte.
 
-    /// Throws std::runtime_error: "cannot read 'a.map': " and `why`.
+    /// Throws std::runtime_error with the text "cannot read 'a.map': " and `why`.
     [[noreturn]] void refuse(const std::string& why) const {
         detail::fail_to_read(path, why);
     }
@@ -115,8 +119,8 @@ struct FileReader {
     /// The number of unread bytes.
     [[nodiscard]] std::size_t left() const noexcept { return bytes.size() - position; }
 
-    /// Requires that exactly `count` entries of `bytes_of_one` bytes are left; throws
-    /// as refuse(). `entries` is their name: "patches".
+    /// Requires that exactly `count` entries of `bytes_of_one` bytes are unread; throws
+    /// as refuse(). The message calls them `entries`, for example "patches".
     void require_left(std::uint64_t count, std::size_t bytes_of_one,
                       const char* entries) const {
         if (left() / bytes_of_one == count && left() % bytes_of_one == 0) return;
@@ -124,7 +128,7 @@ struct FileReader {
                ", which does not match its " + std::to_string(bytes.size()) + " bytes");
     }
 
-    /// The next number; left() must be large enough. The checksum is skipped.
+    /// Reads the next number, which must be in the file. The checksum is skipped.
     template <typename Number>
     [[nodiscard]] Number take() {
         if (position == detail::checksum_place) position = file_front_bytes;
@@ -132,7 +136,7 @@ struct FileReader {
         return detail::number_at<Number>(bytes, position - sizeof(Number));
     }
 
-    /// The next three numbers; see take().
+    /// Reads the next three numbers, as take() does.
     template <typename Vector>
     [[nodiscard]] Vector take_vector() {
         Vector v;
@@ -144,7 +148,8 @@ struct FileReader {
 
 namespace detail {
 
-// Refuses a file of another format or version; what follows is the next to be taken.
+// Refuses a file of another format or version. Reading then continues after the
+// version.
 inline void take_format(FileReader& file, const FileFormat& format) {
     require_beginning({reinterpret_cast<const char*>(file.bytes.data()),
                        std::min(file.bytes.size(), format.magic.size())},
@@ -160,9 +165,9 @@ inline void take_format(FileReader& file, const FileFormat& format) {
 
 } // namespace detail
 
-/// Opens a file.
-/// \return The file, positioned behind its version.
-/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...": if the
+/// Loads a file and checks its header.
+/// \return The file; the first number that is read follows the version.
+/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...", if the
 ///         file is truncated, damaged, or of another version or format.
 [[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,
                                           const FileFormat& format) {

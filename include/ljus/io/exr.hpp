@@ -27,15 +27,16 @@
 namespace ljus {
 
 /// \defgroup exr EXR
-/// \brief Optional (OpenEXR 3.1 or later): the file format of films, in which one file
-/// holds a picture and its layers. A program links OpenEXRCore, with -lOpenEXRCore-3_1
-/// or by its CMake target OpenEXR::OpenEXRCore.
+/// \brief Optional (OpenEXR 3.1 or later): the file format of the film industry. One
+/// file can hold a picture and its layers. A program links OpenEXRCore, with
+/// -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
 /// \{
 
 /// How numbers are stored in an EXR file.
 enum class ExrNumbers {
-    floats, ///< 32 bits: a float keeps its bits.
-    halves  ///< 16 bits: 11 significant ones, up to 65504, and infinite beyond.
+    floats, ///< 32 bits: a float is stored exactly.
+    halves  ///< 16 bits: 11 significant bits, up to 65504; larger numbers become
+            ///< infinite.
 };
 
 namespace detail {
@@ -46,10 +47,10 @@ inline constexpr std::size_t max_exr_file = std::size_t(1) << 30;
 /// The largest number of pixels in all layers of a file together.
 inline constexpr long long max_layer_pixels = 1LL << 27;
 
-/// The largest piece of a file that is decompressed at a time, in bytes.
+/// The largest chunk of a file, in bytes after decompression.
 inline constexpr std::uint64_t max_exr_chunk = std::uint64_t(1) << 28;
 
-// An open file in memory, which is closed at the end of the scope.
+// An EXR file that is open in memory, and is closed at the end of the scope.
 struct ExrFile {
     exr_context_t context = nullptr;
     ExrFile() = default;
@@ -64,7 +65,7 @@ inline exr_context_initializer_t exr_settings(void* data) {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.user_data = data;
     settings.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-    // Nothing that a file declares is larger than a chunk and its work space.
+    // A valid file needs no more than a chunk and its work space at a time.
     settings.alloc_fn = [](std::size_t bytes) {
         return bytes > 4 * max_exr_chunk ? nullptr : std::malloc(bytes);
     };
@@ -72,7 +73,8 @@ inline exr_context_initializer_t exr_settings(void* data) {
     return settings;
 }
 
-// The float of a half's bits: the same number, which is NaN or infinite if the half is.
+// The float with the value of a half, which is given by its bits. NaN and infinity are
+// kept.
 inline float float_of_half(std::uint32_t half) {
     const std::uint32_t sign = (half & 0x8000u) << 16;
     const std::uint32_t exponent = half >> 10 & 31u, mantissa = half & 1023u;
@@ -84,7 +86,7 @@ inline float float_of_half(std::uint32_t half) {
     return std::bit_cast<float>(sign | biased << 23 | mantissa << 13);
 }
 
-// A number of a file, which is little-endian.
+// Reads a number, whose lowest byte comes first.
 inline float exr_number(const unsigned char* bytes, std::uint16_t type) {
     std::uint32_t bits = bytes[0] | std::uint32_t(bytes[1]) << 8;
     if (type == EXR_PIXEL_HALF) return float_of_half(bits);
@@ -98,15 +100,16 @@ struct ExrLayer {
     int part = 0;
     std::string name{};
     std::vector<std::string> channels{};
-    std::vector<int> places{}; // of the channels, in the part's list
+    std::vector<int> places{}; // indices of the channels in their part
 };
 
-// Reads an EXR file. Each error is a sentence that begins with its name.
+// Reads an EXR file. Each error message is a sentence that begins with the file's path.
 class ExrReader {
 public:
     ExrReader(const Bytes& bytes, const std::string& path)
         : bytes_(bytes), path_(path) {
-        auto settings = exr_settings(const_cast<Bytes*>(&bytes)); // it is only read
+        auto settings = exr_settings(const_cast<Bytes*>(&bytes)); // the bytes are only
+                                                                  // read
         settings.size_fn = [](exr_const_context_t, void* data) {
             return static_cast<std::int64_t>(static_cast<const Bytes*>(data)->size());
         };
@@ -126,15 +129,15 @@ public:
         find_layers();
     }
 
-    // What the file holds, in the order of its parts.
+    // The layers of the file, in the order of its parts.
     [[nodiscard]] const std::vector<ExrLayer>& layers() const { return layers_; }
 
     [[noreturn, gnu::cold]] void refuse(std::string_view why) const {
         throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
     }
 
-    // Refuses a part whose primaries are not about those of sRGB; white may be another
-    // one. A part that does not name them has these.
+    // Refuses a part whose primaries are not approximately those of sRGB. The white
+    // point is not compared. A part that names no primaries has those of sRGB.
     void require_srgb(int part) const {
         exr_attr_chromaticities_t is{};
         if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
@@ -146,7 +149,7 @@ public:
                    "convert it to them");
     }
 
-    // Decodes layers. All pixels together are at most `most`.
+    // Decodes layers; refuses them if they have more than `most` pixels together.
     [[nodiscard]] std::vector<LayerT<float>> decode(const std::vector<ExrLayer>& wanted,
                                                     long long most) const {
         std::vector<LayerT<float>> result;
@@ -161,8 +164,8 @@ public:
                              " of them are read; there must be at most ", to_text(most),
                              " pixels in all of them"}));
             pixels += window.width * window.height;
-            // The largest number of pixels per byte: ZIP packs 1032 bytes into one, and
-            // DWA keeps one number of 64 where all are alike.
+            // The divisor is the largest number of pixels per byte. ZIP packs up to
+            // 1032 bytes into one. DWA stores one number for 64 equal ones.
             exr_compression_t method{};
             require(exr_get_compression(file_.context, layer.part, &method),
                     "in its header");
@@ -187,12 +190,12 @@ public:
     }
 
 private:
-    // The pixels that a part stores.
+    // The rectangle of pixels that a part stores, its data window.
     struct Window {
         long long x = 0, y = 0, width = 0, height = 0;
     };
 
-    // A chunk's decoder.
+    // A decoder of one chunk.
     struct Decoder {
         exr_const_context_t context;
         exr_decode_pipeline_t pipeline{};
@@ -227,7 +230,8 @@ private:
         return window;
     }
 
-    // Groups R, G and B, and X, Y and Z; each other channel is a layer of its own.
+    // Finds the layers: channels R, G, B or X, Y, Z of one name form a layer, and every
+    // other channel is a layer of its own.
     void find_layers() {
         int parts = 0;
         require(exr_get_count(file_.context, &parts), "in its header");
@@ -306,7 +310,7 @@ private:
             require(
                 exr_decoding_choose_default_routines(file_.context, part, &pipeline),
                 where);
-            pipeline.unpack_and_convert_fn = nullptr; // 3.1's own is unsafe
+            pipeline.unpack_and_convert_fn = nullptr; // that of OpenEXR 3.1 is unsafe
             require(exr_decoding_run(file_.context, part, &pipeline), where);
             if (!unpack(pipeline, wanted, layers, x, y))
                 require(EXR_ERR_CORRUPT_CHUNK, where);
@@ -338,9 +342,9 @@ private:
             }
     }
 
-    // Puts a decompressed chunk into layers, from (x, y) on: row by row, and in a row
-    // channel by channel.
-    // \return Whether it has all its pixels.
+    // Copies a decompressed chunk into layers, from the pixel (x, y) on. The chunk is
+    // stored row by row, and within a row channel by channel.
+    // \return Whether the chunk has all its pixels.
     [[nodiscard]] static bool unpack(const exr_decode_pipeline_t& pipeline,
                                      const std::vector<ExrLayer>& wanted,
                                      std::vector<LayerT<float>>& layers, long long x,
@@ -353,7 +357,7 @@ private:
         for (int row = 0; row < chunk.height; ++row)
             for (int c = 0; c < pipeline.channel_count; ++c) {
                 const exr_coding_channel_info_t& channel = pipeline.channels[c];
-                // Of some channels only every second row is stored.
+                // A channel may be stored in some of the rows only.
                 if (channel.y_samples > 1 &&
                     (chunk.start_y + row) % channel.y_samples != 0)
                     continue;
@@ -389,10 +393,10 @@ private:
 struct ExrChannel {
     std::string name{};
     std::size_t layer = 0;
-    int place = 0; // 0 to 2, in the layer
+    int place = 0; // 0 to 2, its number in the layer
 };
 
-// The channels of all layers in the order of their names, as files have them.
+// The channels of all layers, sorted by name as in a file.
 template <std::floating_point T>
 std::vector<ExrChannel> exr_channels(const std::vector<LayerT<T>>& layers) {
     require(!layers.empty(), "the number of layers", 0LL, "at least 1");
@@ -465,7 +469,7 @@ Bytes exr_bytes(const std::vector<LayerT<T>>& layers,
     require_done(exr_write_header(context));
     require_done(exr_get_scanlines_per_chunk(context, part, &lines));
 
-    std::vector<float> values; // of some rows: channel by channel
+    std::vector<float> values; // of some rows, channel by channel
     for (int y = 0; y < height; y += lines) {
         values.clear();
         const int end = std::min(y + lines, height);
@@ -502,7 +506,7 @@ Bytes exr_bytes(const std::vector<LayerT<T>>& layers,
     return bytes;
 }
 
-// A layer in another precision.
+// Converts a layer to precision T.
 template <std::floating_point T>
 LayerT<T> layer_in(LayerT<float>&& layer) {
     if constexpr (std::same_as<T, float>) {
@@ -517,16 +521,17 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 
 } // namespace detail
 
-/// Loads all layers of an EXR file: scanlines or tiles, one part or several, numbers of
-/// any type, by each compression that OpenEXRCore reads. Deep parts are left out, and
-/// so are channels with fewer values than pixels.
-/// \return In the order of the parts, and within a part of the names: channels R, G, B
-///         or X, Y, Z of one name together, each other channel alone. In a file of
-///         several parts the name of the part is that of its channels without a name.
-///         A layer has the pixels of its part's data window.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is damaged,
-///         or has more than 2^27 pixels in all layers together.
-/// \cost At most 12 bytes per pixel and layer, and a chunk of 256 MB.
+/// Loads all layers of an EXR file. It may have scanlines or tiles, one part or
+/// several, numbers of any type, and every compression that OpenEXRCore reads. Deep
+/// parts are left out, and so are channels with fewer values than pixels.
+/// \return The layers in the order of the parts, and within a part in the order of
+///         names. Channels R, G, B or X, Y, Z of one name form a layer; every other
+///         channel is a layer of its own. In a file of several parts, a channel without
+///         a layer name has the name of its part. A layer has the pixels of its part's
+///         data window.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is
+///         damaged, or has more than 2^27 pixels in all layers together.
+/// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
 template <std::floating_point T = float>
 [[nodiscard]] std::vector<LayerT<T>> load_exr_layers(const std::string& path) {
     const Bytes bytes = load_file(path, detail::max_exr_file, "\x76\x2f\x31\x01");
@@ -540,12 +545,12 @@ template <std::floating_point T = float>
 /// Loads one picture from an EXR file: its channels R, G and B, or the grey picture of
 /// its channel Y.
 /// \param path   The file.
-/// \param layer  The name of a layer, as "albedo"; "": the picture itself.
+/// \param layer  The name of a layer, such as "albedo"; empty for the picture itself.
 /// \return The picture of the data window, as it is stored: values may be negative,
 ///         infinite or NaN.
-/// \throws std::runtime_error  as load_exr_layers(), or for a file without that
-///         picture, with the names of what it has; for other primaries than those of
-///         sRGB; or with more than 2^25 pixels.
+/// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
+///         (the message lists its layers), has other primaries than sRGB, or has more
+///         than 2^25 pixels.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_exr(const std::string& path,
                                  const std::string& layer = "") {
@@ -573,13 +578,14 @@ template <std::floating_point T = float>
 }
 
 /// Saves layers as one EXR file of one part, in scanlines compressed by ZIP.
-/// \param layers   Of one size, at least one; no two channels have the same name.
+/// \param layers   At least one layer; all have the same size, and no two channels have
+///                 the same name.
 /// \param path     The file.
-/// \param numbers  How they are stored; a double is rounded to float first.
-/// \throws std::invalid_argument  for no layer, another size, a name that occurs twice
-///         or does not have 1 to 255 bytes, and as check(); std::runtime_error as
-///         save_file().
-/// \cost The file in memory, and twice 16 rows.
+/// \param numbers  How numbers are stored; a double is rounded to float first.
+/// \throws std::invalid_argument  if there is no layer, if sizes differ, if a name
+///         occurs twice or does not have 1 to 255 bytes, or as check();
+///         std::runtime_error as save_file().
+/// \cost Memory for the file, and for 32 rows.
 template <std::floating_point T>
 void save_exr_layers(const std::vector<LayerT<T>>& layers, const std::string& path,
                      ExrNumbers numbers = ExrNumbers::floats) {
@@ -594,11 +600,11 @@ void save_exr(const ImageT<T>& image, const std::string& path,
     save_exr_layers(std::vector<LayerT<T>>{{.image = image}}, path, numbers);
 }
 
-/// What a scene file may name, with EXR pictures of the sky among it:
+/// Reads the files that a scene file names, including EXR pictures of the sky:
 /// load_json("scene.json", WithExr{MeshFiles{}}).
 template <typename Files>
 struct WithExr {
-    Files files{}; ///< Reads meshes: MeshFiles.
+    Files files{}; ///< Reads mesh files, for example MeshFiles.
 
     /// Reads a mesh file.
     [[nodiscard]] auto operator()(const std::string& path, double scale,
@@ -620,7 +626,7 @@ struct WithExr {
         return load_exr<T>(path);
     }
 };
-/// Deduces what reads meshes.
+/// Deduces the reader of mesh files.
 template <typename Files>
 WithExr(Files) -> WithExr<Files>;
 

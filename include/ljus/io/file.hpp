@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Reads files up to a limit.
+/// \brief Reads files up to a limit of size.
 
 #include <algorithm>
 #include <cerrno>
@@ -23,7 +23,7 @@
 
 #ifdef _MSC_VER
 #pragma warning(push)
-#pragma warning(disable : 4996) // std::fopen is what this header wants
+#pragma warning(disable : 4996) // this header uses std::fopen
 #endif
 
 namespace ljus {
@@ -39,7 +39,7 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
-// Refuses a file that does not begin as one of its kind.
+// Refuses a file that does not begin with certain bytes.
 inline void require_beginning(std::string_view text, std::string_view begin,
                               const std::string& path) {
     if (!text.starts_with(begin))
@@ -52,12 +52,14 @@ inline std::string folder_of(const std::string& path) {
     return path.substr(0, path.find_last_of("/\\") + 1); // 0 if there is no slash
 }
 
-// The path of a file that another file names: relative to that file, unless absolute.
+// The path of a file that another file names. Unless absolute, it is relative to the
+// folder of that other file.
 inline std::string path_beside(const std::string& file, const std::string& name) {
     return name.starts_with('/') ? name : folder_of(file) + name;
 }
 
-// One path for all names and links of a file; the path itself if it does not exist.
+// A path that is the same for all names and links of a file; the path itself if the
+// file does not exist.
 inline std::string one_path(const std::string& path) {
 #if __has_include(<unistd.h>)
     if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
@@ -71,15 +73,16 @@ inline std::string one_path(const std::string& path) {
 
 } // namespace detail
 
-/// A list of the files that this thread loads by load_file() while the list exists: all
-/// that a scene is made of, with meshes, materials and pictures, as it is when it is
-/// read. While a second list exists, the files go into that one alone.
+/// A list of the files that this thread reads while the list exists. It thus collects
+/// all files of a scene, with meshes, materials and pictures. If several lists exist, a
+/// file goes into the newest list only.
 class FilesRead {
 public:
-    /// A file that was asked for.
+    /// A file that the thread has tried to read.
     struct File {
-        std::string path;       ///< As load_file() was given it.
-        std::uint64_t hash = 0; ///< FNV-1a of its bytes; 0: it could not be read.
+        std::string path;       ///< The path as it was passed to load_file().
+        std::uint64_t hash = 0; ///< FNV-1a hash of its bytes; 0 if it could not be
+                                ///< read.
     };
 
     FilesRead() { current() = this; }
@@ -90,8 +93,8 @@ public:
     /// All files so far, in the order of reading.
     [[nodiscard]] const std::vector<File>& files() const noexcept { return files_; }
 
-    /// A hash of the contents of all files so far, in the order of reading. Names do
-    /// not count, the absence of a file does.
+    /// A hash of the contents of all files so far, in the order of reading. Names have
+    /// no influence on it, but a missing file has.
     [[nodiscard]] std::uint64_t hash() const noexcept {
         std::uint64_t all = detail::fnv_start;
         for (const File& file : files_)
@@ -112,12 +115,12 @@ private:
     FilesRead* outer_ = current();
 };
 
-/// Reads a file piece by piece; a FilesRead takes note of it.
+/// Reads a file piece by piece. A FilesRead lists the file.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
 /// \param use   Called as use(text, last) with a piece, and whether it is the last one;
-///              returns how many bytes it has used. The next piece begins with those
-///              left.
+///              returns the number of bytes that it has used. The next piece begins
+///              with the other bytes.
 /// \throws std::runtime_error  with path and reason.
 template <typename Use>
 void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
@@ -141,10 +144,10 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
 
     std::uint64_t hash = detail::fnv_start;
     std::string piece(std::size_t(1) << 16, '\0');
-    std::size_t left = 0, size = 0; // of the piece before; of the file so far
+    std::size_t left = 0, size = 0; // unused bytes of the last piece; bytes read
     for (bool last = false; !last;) {
         if (left > piece.size() / 2) piece.resize(2 * piece.size());
-        // One byte more than the limit shows that the file is longer.
+        // Reading one byte more than the limit shows whether the file is longer.
         const std::size_t room = most - size, free = piece.size() - left;
         const std::size_t wanted = room < free ? room + 1 : free;
         const std::size_t got = std::fread(piece.data() + left, 1, wanted, closed.file);
@@ -166,10 +169,11 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     if (notes != nullptr) notes->files_[number].hash = hash;
 }
 
-/// Reads a file; a FilesRead takes note of it.
+/// Reads a file. A FilesRead lists the file.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
-/// \param begin The first bytes that it must have; they are tested first.
+/// \param begin The bytes with which the file must begin. They are tested before the
+///              rest is read.
 /// \throws std::runtime_error  with path and reason.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
@@ -179,13 +183,13 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
         bytes.insert(bytes.end(), text.begin(), text.end());
         return text.size();
     });
-    bytes.shrink_to_fit(); // it grew by doubling
+    bytes.shrink_to_fit(); // its memory grew by doubling
     return bytes;
 }
 
 namespace detail {
 
-// A text without the byte order mark of UTF-8; UTF-16 is refused.
+// Removes the byte order mark of a UTF-8 text; refuses UTF-16.
 inline std::string_view plain_text(std::string_view text, const std::string& path) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         fail_to_read(path, "its text is UTF-16; save it as UTF-8");

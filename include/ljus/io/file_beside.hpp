@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/io/file_beside.hpp
-/// \brief Writes files whole or not at all: a new file beside the older one replaces
-/// it when it is complete.
+/// \brief Writes files whole or not at all. A new file is written beside the older one,
+/// and replaces it when complete.
 
 #include <cerrno>
 #include <cstddef>
@@ -27,21 +27,22 @@
 
 #ifdef _MSC_VER
 #pragma warning(push)
-#pragma warning(disable : 4996) // std::fopen is what this header wants
+#pragma warning(disable : 4996) // this header uses std::fopen
 #endif
 
 namespace ljus {
 
 /// \defgroup file Files
-/// \brief A save that fails leaves no half-written file, and keeps the older one.
+/// \brief Reading and saving files. A save that fails keeps the older file and leaves
+/// no incomplete one.
 /// \{
 
-/// The content of a file.
+/// The bytes of a file.
 using Bytes = std::vector<unsigned char>;
 
-/// A text from a file or a user, made fit for a message: one line of limited length,
-/// with `?` for each control character and each byte that is not UTF-8.
-/// At most `limit` bytes are shown, then "...".
+/// Prepares a text from a file or a user for a message: one line of at most `limit`
+/// bytes, followed by "..." if the text is longer. Each control character, and each
+/// byte that is not UTF-8, is replaced by `?`.
 [[nodiscard, gnu::cold]] inline std::string shown(std::string text,
                                                   std::size_t limit = 48) {
     const auto byte = [&](std::size_t i) {
@@ -59,13 +60,13 @@ using Bytes = std::vector<unsigned char>;
         size = 1;
     }
     if (text.size() <= limit) return text;
-    // Does not cut a UTF-8 character.
+    // No UTF-8 character is cut.
     while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xc0u) == 0x80u)
         --limit;
     return detail::join({std::string_view(text).substr(0, limit), "..."});
 }
 
-/// A path for a message; it may come from a file. At most 1000 bytes are shown.
+/// Prepares a path for a message, as shown() does, with at most 1000 bytes.
 [[nodiscard, gnu::cold]] inline std::string shown_path(const std::string& path) {
     return shown(path, 1000);
 }
@@ -81,9 +82,9 @@ namespace detail {
     fail_to_write(path, std::strerror(error));
 }
 
-// The file that a save replaces. For a symbolic link that is its target, so that the
-// link stays. Folders, pipes and devices (/dev/null), and files without write
-// permission, are not replaced.
+// The path of the file that a save replaces. For a symbolic link this is its target, so
+// that the link remains. Throws for folders, pipes, devices (/dev/null) and files
+// without write permission, which are not replaced.
 [[gnu::cold]] inline std::string file_to_replace(const std::string& path) {
 #if __has_include(<unistd.h>)
     struct ::stat status = {};
@@ -106,16 +107,18 @@ namespace detail {
     return path;
 }
 
-// A new file beside `path`, removed unless it is renamed to `path`. If the system has
-// files without names (`nameless`), it is named only when it is complete: a program
-// that is killed before leaves nothing. It is locked until then: what a program that
-// was killed has left is not, and the next one removes it.
+// A new file beside `path`, which is removed unless it is renamed to `path`. On systems
+// with files without names (`nameless`), it gets a name only when it is complete, so
+// that a program that is killed before leaves no file. On other systems a killed
+// program may leave a file. Files in use are locked, so that the next save recognises
+// an unlocked file as abandoned, and removes it.
 class FileBeside {
 public:
     [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true)
         : path_(path) {
         if (nameless) open_nameless();
-        // "x" never opens an existing file, which may belong to another process.
+        // The mode "x" never opens an existing file, which may belong to another
+        // process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
             name_ = name_of(number);
             remove_what_is_left(name_);
@@ -125,7 +128,7 @@ public:
         }
         if (file_ == nullptr) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        struct ::stat older = {}; // the new file must not be readable by more users
+        struct ::stat older = {}; // its permissions, for the new file
         if (::stat(path.c_str(), &older) == 0)
             (void)::fchmod(::fileno(file_), older.st_mode & 07777);
 #endif
@@ -149,8 +152,9 @@ public:
     [[gnu::cold]] void close() {
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        // Flushed to the disk before the renaming: otherwise a loss of power could
-        // leave the name without the bytes. Some file systems do not support it.
+        // The bytes must be on the disk before the file is renamed. Otherwise a loss of
+        // power could leave the name without the bytes. Some file systems do not
+        // support fsync.
         if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)
             fail_to_write(path_, errno);
 #endif
@@ -163,8 +167,8 @@ public:
 
     [[gnu::cold]] void rename_to_path() {
 #ifdef _WIN32
-        // Here std::rename does not replace: the older file is renamed first, and
-        // renamed back if the new one cannot be.
+        // On Windows std::rename does not replace a file. The older file is renamed
+        // first, and renamed back if the new file cannot be renamed.
         const std::string aside = name_ + ".old";
         const bool older = std::rename(path_.c_str(), aside.c_str()) == 0;
         renamed_ = std::rename(name_.c_str(), path_.c_str()) == 0;
@@ -185,20 +189,19 @@ private:
     }
 
 #if __has_include(<unistd.h>)
-    // Whether the name is that of an open file.
+    // Whether an open file has this name.
     static bool is_named(int file, const std::string& name) {
         struct ::stat open = {}, named = {};
         return ::fstat(file, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
                open.st_dev == named.st_dev && open.st_ino == named.st_ino;
     }
 #endif
-    // Locks the file, where locks are known. False if another process has taken it for
-    // what is left, before it was locked.
+    // Locks the file, on systems with locks. Returns false if another process has taken
+    // the file for an abandoned one before it was locked.
     [[gnu::cold]] bool lock() {
 #if __has_include(<unistd.h>)
         if (lock_ >= 0) ::close(lock_);
-        lock_ =
-            ::fcntl(::fileno(file_), F_DUPFD_CLOEXEC, 0); // open until it is renamed
+        lock_ = ::fcntl(::fileno(file_), F_DUPFD_CLOEXEC, 0); // keeps the lock
         if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             return false;
         return name_.empty() || is_named(lock_, name_);
@@ -219,7 +222,8 @@ private:
 #endif
     }
 
-    // If this fails, the named file will fail as well, and report the reason.
+    // Opens a file without a name. A failure is not reported here: opening a file with
+    // a name will fail as well, and report the reason.
     [[gnu::cold]] void open_nameless() {
 #if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
         struct ::stat status = {};
@@ -254,20 +258,20 @@ private:
     }
 
     std::string path_;
-    std::string name_; // empty while the file has none
+    std::string name_; // empty while the file has no name
     std::FILE* file_ = nullptr;
-    int lock_ = -1; // the file once more
+    int lock_ = -1; // a second descriptor of the file
     bool renamed_ = false;
 };
 
 } // namespace detail
 
-/// Writes a file beside `path`, and renames it once every write, the flush and the
-/// close have succeeded. If anything fails, an older file is unchanged and nothing else
-/// is left. The new file has the older one's permissions. A program that is killed
-/// while it renames leaves `a.png.ljus-part0`, the complete new file; the next save of
-/// `a.png` removes it. (A program that wants to receive the error of a file-size limit
-/// must ignore SIGXFSZ.)
+/// Writes a new file beside `path`, and renames it to `path` when everything has been
+/// written. If anything fails, an older file is unchanged and no other file is left.
+/// The new file has the permissions of the older one. A program that is killed while it
+/// renames leaves the complete new file as `a.png.ljus-part0`, which the next save of
+/// `a.png` removes. A program that wants an exception when a file-size limit is reached
+/// must ignore SIGXFSZ.
 /// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
 [[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
@@ -276,8 +280,8 @@ private:
     file.rename_to_path();
 }
 
-/// Tests whether save_file() could write a file, before work is done: writes one byte
-/// beside it, and removes that again.
+/// Tests whether save_file() could write a file, so that an error is found before a
+/// long computation. It writes a file of one byte beside `path` and removes it.
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));

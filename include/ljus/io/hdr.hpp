@@ -20,17 +20,17 @@
 namespace ljus {
 
 /// \defgroup hdr HDR
-/// \brief Three mantissas share an exponent: 76 decades, with an error of 0.4 % of the
-/// largest channel.
+/// \brief The three channels of a pixel share an exponent. The format spans 76 decades;
+/// its error is 0.4 % of the largest channel of a pixel.
 /// \{
 
 namespace detail {
 
-/// Encodes a colour in four bytes: round(256 c / 2^e) and e + 128, where 2^e is the
-/// smallest power of two above the largest channel \cite ward1991.
-/// \param c  Every channel at least 0 and below 1.69e38.
-/// \return R, G, B, E; zeros below 2.9e-39. The error of a channel is at most 1/256 of
-///         the largest one, and has no bias.
+/// Encodes a colour in four bytes: round(256 c / 2^e) for each channel c, and e + 128,
+/// where 2^e is the smallest power of two above the largest channel \cite ward1991.
+/// \param c  A colour whose channels are at least 0 and below 1.69e38.
+/// \return The bytes R, G, B and E; all 0 if the largest channel is below 2.9e-39. The
+///         error of a channel is at most 1/256 of the largest one, and has no bias.
 [[nodiscard]] inline std::array<unsigned char, 4>
 to_rgbe(const RgbT<double>& c) noexcept {
     const double largest = max_component(c);
@@ -46,8 +46,8 @@ to_rgbe(const RgbT<double>& c) noexcept {
             static_cast<unsigned char>(exponent + 128)};
 }
 
-/// Decodes four bytes. Ward's own programs round mantissas down and add half a step
-/// here; this library rounds to the nearest.
+/// Decodes four bytes R, G, B and E. No half step is added to R, G and B, because
+/// to_rgbe() has rounded them to the nearest step.
 /// \return (R, G, B) 2^(E - 136), or black if E is 0.
 [[nodiscard]] inline RgbT<double>
 from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
@@ -59,8 +59,8 @@ from_rgbe(const std::array<unsigned char, 4>& rgbe) noexcept {
 } // namespace detail
 
 /// Saves an image as a Radiance file, without run-length coding; see save_file().
-/// \throws std::invalid_argument  as check(), or for a channel out of range (PFM stores
-///         it); std::runtime_error as save_file().
+/// \throws std::invalid_argument  as check(), or if a channel is below 0 or at least
+///         1.69e38; std::runtime_error as save_file().
 template <std::floating_point T>
 void save_hdr(const ImageT<T>& image, const std::string& path) {
     check(image);
@@ -87,8 +87,8 @@ void save_hdr(const ImageT<T>& image, const std::string& path) {
 
 namespace detail {
 
-// A coded row: each of the four channels in turn, as runs of one byte or of different
-// bytes.
+// Reads a coded row. The four channels are stored one after another, as runs of equal
+// bytes and runs of different bytes.
 inline void read_rgbe_runs(ByteReader& reader,
                            std::vector<std::array<unsigned char, 4>>& row) {
     for (std::size_t part = 0; part < 4; ++part)
@@ -119,7 +119,7 @@ inline void read_rgbe_row(ByteReader& reader,
         row.resize(width);
         return read_rgbe_runs(reader, row);
     }
-    row.clear(); // it grows by pixels: a short file takes no memory
+    row.clear(); // grows pixel by pixel, so that a short file takes little memory
     while (row.size() < width) {
         if (reader.left() < 4) reader.fail("its last row is incomplete");
         auto& rgbe = row.emplace_back();
@@ -130,8 +130,8 @@ inline void read_rgbe_row(ByteReader& reader,
     }
 }
 
-// The numbers of a line of the header, such as "COLORCORR= 1 1.2 0.9", behind its first
-// `name` letters; NaN for what is none.
+// The numbers of a line of the header, such as "COLORCORR= 1 1.2 0.9", after its first
+// `name` letters. A word that is no number gives NaN.
 inline std::vector<double> header_numbers(const std::string& line, std::size_t name) {
     std::vector<double> numbers;
     for (std::size_t at = name;;) {
@@ -145,13 +145,13 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 
 } // namespace detail
 
-/// Loads a Radiance file: RGBE, rows from the top, plain or run-length coded.
-/// \return Its image, divided by the EXPOSURE and COLORCORR lines of the header, which
-///     gives radiance.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is of an
-///     unsupported kind (XYZE, other primaries than those of sRGB, a gamma, another
-///     pixel order, the run-length coding from before 1991), or is shorter or longer
-///     than its header says.
+/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded.
+/// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
+///         header.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
+///         an unsupported kind (XYZE, other primaries than those of sRGB, a gamma,
+///         another pixel order, the run-length coding from before 1991), or is shorter
+///         or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
@@ -193,7 +193,8 @@ template <std::floating_point T = float>
                     "; only -Y +X is supported");
     reader.require_pixels(width, height);
 
-    // The image grows by rows: a short file that declares a large size takes no memory.
+    // The image grows row by row, so that a short file that declares a large size takes
+    // little memory.
     ImageT<T> image{.width = width, .height = height, .pixels = {}};
     std::vector<std::array<unsigned char, 4>> row;
     for (int y = 0; y < height; ++y) {

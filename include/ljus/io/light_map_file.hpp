@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/light_map_file.hpp
-/// \brief Light maps in files.
+/// \brief Saves and loads light maps.
 
 #include <algorithm>
 #include <optional>
@@ -13,12 +13,12 @@
 namespace ljus {
 
 /// \defgroup light_map_file Light maps in files
-/// \brief Section 2.2: "radiosity can easily be precomputed since it is view
-/// independent".
+/// \brief Saves and loads light maps: "radiosity can easily be precomputed since it is
+/// view independent" (Section 2.2).
 ///
-/// One flat file, the same on every machine: 16 letters that name the format; version,
-/// number of grids, the scene's hash and a checksum; the settings' hash; the grids;
-/// then the irradiance of each patch, three doubles.
+/// A file has the header of \ref binary_file, with the number of grids and the hash of
+/// the scene. Then follow the hash of the settings, the grids, and the irradiance of
+/// each patch as three doubles.
 /// \{
 
 namespace detail {
@@ -35,7 +35,8 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
         put_number(bytes, number);
 }
 
-// The next grid of a file, without `first`; nothing if its numbers are wrong.
+// Reads the next grid of a file, except its member `first`; nothing if its numbers are
+// not valid.
 [[nodiscard]] inline std::optional<PatchGrid> take_grid(FileReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_gltf.hpp
-/// \brief Meshes, cameras and lights from glTF 2.0 files.
+/// \brief Reads meshes, cameras and lights from glTF 2.0 files.
 
 #include <utility>
 
@@ -14,34 +14,38 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
-/// Reads the meshes of a glTF 2.0 file, .gltf or .glb, and its cameras and lights.
-/// Optional (nlohmann-json). The meshes stand as the nodes of the file's scene place
-/// them; faces of one material are one mesh.
+/// Reads the meshes, cameras and lights of a glTF 2.0 file, .gltf or .glb. Optional
+/// (nlohmann-json). The nodes of the file's scene place the meshes. All faces of one
+/// material form one mesh.
 ///
-/// A metal has the colour and roughness of the file, at least 0.01 or 0; a factor of
-/// 0.5 or more is a metal. A picture of metal and roughness counts at the middle of
-/// each triangle, in steps of 1/8, so that the faces of one metal become several
-/// meshes. All else is matt in its colour, or glass by KHR_materials_transmission;
-/// KHR_materials_unlit is matt too, as a surface that glows would light the scene.
-/// Each mesh has copies of its pictures; all pictures are halved until the copies have
-/// at most 2^25 pixels together.
-/// What glows has its emissiveFactor for radiance, W/(m^2 sr), times the strength of
-/// KHR_materials_emissive_strength; with a picture of it, it does not glow. All
-/// pictures of a material lie as that of its base colour does, by its sampler and its
-/// KHR_texture_transform; with alphaMode MASK its alpha cuts holes. Lights of
-/// KHR_lights_punctual have candela for W/sr and lux for W/m^2; with `scale` distances
-/// and intensities grow alike, so that the light on surfaces stays the same.
-/// \param bytes     The bytes.
-/// \param file      What messages call it: its name; buffers and pictures are looked
-///                  for beside it.
+/// A material with a metallicFactor of 0.5 or more is a metal, with the colour and
+/// roughness of the file; a roughness below 0.01 becomes 0. A metallicRoughnessTexture
+/// is read at the middle of each triangle, and its roughness is rounded to a multiple
+/// of 1/8. The faces of one metal may thus become several meshes. A material with a
+/// transmissionFactor above 0.5 is glass. All other materials are matt, even with
+/// KHR_materials_unlit.
+///
+/// The emissiveFactor, times the strength of KHR_materials_emissive_strength, is used
+/// as radiance, W/(m^2 sr). A material with an emissiveTexture does not glow.
+///
+/// All pictures of a material are looked up like its baseColorTexture, by its sampler
+/// and its KHR_texture_transform. With alphaMode MASK, the alpha of that picture cuts
+/// holes. Each mesh has copies of its pictures. The width and height of all pictures
+/// are halved until the copies have at most 2^25 pixels together.
+///
+/// Lights of KHR_lights_punctual have W/sr in place of candela, and W/m^2 in place of
+/// lux. Intensities are multiplied by the square of `scale`, so that the irradiance on
+/// surfaces does not depend on the scale.
+/// \param bytes     The bytes of the file.
+/// \param file      The path of the file, for messages. Buffers and pictures are looked
+///                  for in its folder.
 /// \param settings  Scale and normals.
-/// \return The content, and in the report what is wrong or not used: skins, animations,
-///         morph targets, tangents, alphaMode BLEND, the scale of normals, other
-///         extensions.
-/// \throws std::runtime_error  with one sentence, for a file that breaks the format, or
-///         requires an extension that is not known: "a.gltf: accessors[2] has 36
-///         elements of 12 bytes, which do not fit into the 288 bytes of its view.";
-///         or as read_obj().
+/// \return The content of the file. Its report says what is wrong or not used: skins,
+///         animations, morph targets, tangents, alphaMode BLEND, the scale of normals,
+///         other extensions.
+/// \throws std::runtime_error  if the file breaks the format or requires an unknown
+///         extension, with one sentence: "a.gltf: accessors[2] has 36 elements of 12
+///         bytes, which do not fit into the 288 bytes of its view."; or as read_obj().
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
 /// \cost Linear in the size of the files and the number of triangles, at most 2^23.
 template <std::floating_point T = float>

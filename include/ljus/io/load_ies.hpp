@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_ies.hpp
-/// \brief The measured intensities of lamps, from IES files.
+/// \brief Reads the measured intensities of lamps from IES files.
 
 #include <cmath>
 #include <string>
@@ -24,10 +24,10 @@ namespace ljus {
 
 /// The content of an IES file.
 struct IesLamp {
-    IntensityTable table{}; ///< All around, in cd, with the multiplier of the file and
-                            ///< its ballast factors.
+    IntensityTable table{}; ///< Intensities in all directions, cd, multiplied by the
+                            ///< multiplier and the ballast factors of the file.
     double lumens = 0;      ///< Rated flux of all lamps in the luminaire, lm; -1 if the
-                            ///< file does not say it.
+                            ///< file does not give it.
     double watts = 0;       ///< Electric power of the luminaire, W.
 };
 
@@ -36,14 +36,14 @@ namespace detail {
 /// The largest IES file that is read, in bytes.
 inline constexpr std::size_t max_ies_file = std::size_t(1) << 22;
 
-/// The words of an IES file behind its line TILT=, with the numbers of their lines.
+/// Reads the words and numbers of an IES file, and counts its lines.
 struct IesReader {
-    std::string_view rest;   ///< What is not read yet.
-    const std::string& file; ///< Its name.
+    std::string_view rest;   ///< The text that is not read yet.
+    const std::string& file; ///< The path of the file.
     long long line = 0;      ///< The number of the line that was taken last.
-    Words words{};           ///< Of that line.
+    Words words{};           ///< The unread words of that line.
 
-    /// Refuses the file for what its current line says.
+    /// Refuses the file because of its current line.
     [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
         throw std::runtime_error(
             join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
@@ -80,7 +80,7 @@ struct IesReader {
                 join({what, " is ", to_text(value), "; it must be a whole number"}));
         return static_cast<std::size_t>(value);
     }
-    /// Angles that grow.
+    /// Reads angles, each of which must be larger than the one before.
     std::vector<double> angles(const char* what, std::size_t count, double low,
                                double high) {
         std::vector<double> all;
@@ -96,20 +96,21 @@ struct IesReader {
     }
 };
 
-/// Intensities as a file has them: for each horizontal angle, all vertical ones.
+/// The intensities of a file: for each horizontal angle, those of all vertical angles.
 struct IesGrid {
-    std::vector<double> horizontal{}; ///< Degrees.
-    std::vector<double> vertical{};   ///< Degrees.
-    std::vector<double> candela{};    ///< cd.
+    std::vector<double> horizontal{}; ///< Horizontal angles, degrees.
+    std::vector<double> vertical{};   ///< Vertical angles, degrees.
+    std::vector<double> candela{};    ///< Intensities, cd.
 
-    /// Appends a column of `from`, which has the same vertical angles.
-    /// \param angle  The column's horizontal angle here.
+    /// Appends a column of another grid, which has the same vertical angles.
+    /// \param angle  The horizontal angle that the column gets here.
     void append(double angle, const IesGrid& from, std::size_t column) {
         horizontal.push_back(angle);
         for (std::size_t i = 0; i < vertical.size(); ++i)
             candela.push_back(from.candela[column * vertical.size() + i]);
     }
-    /// Appends the mirror image of all columns in the plane of the last one.
+    /// Appends the mirror images of all columns but the last. The mirror plane is that
+    /// of the last column.
     void mirror() {
         const double plane = horizontal.back();
         for (std::size_t column = horizontal.size() - 1; column > 0; --column)
@@ -117,13 +118,14 @@ struct IesGrid {
     }
 };
 
-/// Completes the horizontal angles by symmetry: their range tells which symmetry.
-/// \param around  Whether they go around the axis, as those of type C do.
-/// \return What their range must be; nothing if it is right.
+/// Completes the intensities by symmetry. The range of the horizontal angles says which
+/// symmetry the lamp has.
+/// \param around  Whether the horizontal angles go around the axis, as in type C.
+/// \return The range that the angles should have, in words; null if the range is valid.
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();
     if (!around) {
-        if (first == 0 && last == 90) { // the left side is as the right one
+        if (first == 0 && last == 90) { // the left side mirrors the right one
             IesGrid left{.vertical = grid.vertical};
             for (std::size_t column = grid.horizontal.size() - 1; column > 0; --column)
                 left.append(-grid.horizontal[column], grid, column);
@@ -135,13 +137,13 @@ struct IesGrid {
         return first == -90 && last == 90 ? nullptr : "from 0 or -90 to 90";
     }
     // [complete]
-    if (first == 0 && last == 0) { // the same all around
+    if (first == 0 && last == 0) { // rotationally symmetric
         grid.append(360, grid, 0);
-    } else if (first == 0 && last == 90) { // in four quarters
+    } else if (first == 0 && last == 90) { // four equal quarters
         grid.mirror();
         grid.mirror();
     } else if ((first == 0 && last == 180) || (first == 90 && last == 270)) {
-        grid.mirror(); // in two halves
+        grid.mirror(); // two equal halves
     } else if (first == 0 && last > 180 && last < 360) {
         grid.append(360, grid, 0); // files leave out the last angle
     } else if (!(first == 0 && last == 360)) {
@@ -151,8 +153,8 @@ struct IesGrid {
     return nullptr;
 }
 
-/// The table of a complete grid. The polar angles of the types B and A are those from
-/// the pole, and grow as the angles of the file fall.
+/// The table of a complete grid. For the types B and A, a polar angle is measured from
+/// the pole: it is 90 degrees minus an angle of the file.
 [[nodiscard]] inline IntensityTable table_of(Photometry type, const IesGrid& grid) {
     const std::size_t rows = grid.vertical.size(), columns = grid.horizontal.size();
     IntensityTable table{.type = type};
@@ -185,10 +187,10 @@ struct IesGrid {
 } // namespace detail
 
 /// Reads a lamp from the text of an IES file.
-/// \return The lamp, its table complete.
+/// \return The lamp with its complete table.
 /// \throws std::runtime_error  with one sentence: "desk.ies: line 12: a vertical angle
 ///         is 20; it must be above the one before, 25."
-/// \cost Linear in the size of the file, which bounds its memory.
+/// \cost Time and memory linear in the size of the file.
 [[nodiscard, gnu::cold]] inline IesLamp read_ies(std::string_view source,
                                                  const std::string& file) {
     detail::IesReader in{detail::plain_text(source, file), file};

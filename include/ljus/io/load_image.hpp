@@ -1,12 +1,12 @@
 #pragma once
 
 /// \file ljus/io/load_image.hpp
-/// \brief Loads 8-bit PNG, JPEG and BMP pictures, and makes them linear.
+/// \brief Loads PNG, JPEG and BMP pictures, in linear colours.
 ///
 /// stb_image decodes them. This header compiles its implementation for itself, hidden
 /// from other files; a program with its own implementation in the *same* file must
-/// include that first. Without stb_image no picture can be read, and loading one throws
-/// an error that says so.
+/// include that first. Without stb_image, loading a picture throws an error that says
+/// so.
 
 #include "ljus/io/detail/stb_memory.hpp"
 
@@ -28,9 +28,9 @@
 #pragma warning(push, 0)
 #pragma warning(disable : 4505 4996)
 #endif
-// A damaged JPEG file can overflow signed sums in stb_image before 2.28, and make it
-// shift a byte that is 0 by 32 bits or more. With this option sums wrap, and any shift
-// of 0 is 0.
+// In stb_image before 2.28 a damaged JPEG file can overflow signed sums, and can shift
+// a byte of value 0 by 32 bits or more. With this option sums wrap around, and any
+// shift of 0 gives 0.
 #if defined(__clang__)
 #pragma clang attribute push(                                                          \
     [[clang::no_sanitize("signed-integer-overflow", "shift")]], apply_to = function)
@@ -101,16 +101,17 @@
 namespace ljus {
 
 /// \defgroup load_image Loading pictures
-/// \brief Optional (stb_image): PNG, JPEG and BMP only, because damaged files are most
-/// dangerous to the readers of rare formats.
+/// \brief Optional (stb_image). Only PNG, JPEG and BMP are read, because damaged files
+/// of rare formats are more likely to harm their readers.
 /// \{
 
-/// Which part of a picture is wanted, and in which form.
+/// What is read from a picture.
 enum class PictureContent : std::uint8_t {
     colors,  ///< Linear colours, without alpha.
-    numbers, ///< The bytes over 255, for normals and other data.
+    numbers, ///< The bytes divided by 255, for normals and other data.
     alpha,   ///< Alpha in all three channels; 1 in a picture that has none.
-    mask     ///< The same, but red as a number in a picture that has no alpha.
+    mask     ///< Alpha or, in a picture that has none, red divided by 255, in all three
+             ///< channels.
 };
 
 namespace detail {
@@ -118,7 +119,7 @@ namespace detail {
 /// The largest file that load_image() accepts, in bytes.
 inline constexpr std::size_t max_image_file = std::size_t(1) << 27;
 
-/// The largest width and height; stb_image has the same.
+/// The largest width and height, as in stb_image.
 inline constexpr int max_image_side = 1 << 24;
 
 #ifdef LJUS_HAS_STB_IMAGE
@@ -126,13 +127,13 @@ inline constexpr int max_image_side = 1 << 24;
 struct DecodedBytes {
     int width = 0, height = 0;
     bool has_alpha = false;
-    double gamma = 0;    // light to this power is what the bytes are; 0: sRGB
+    double gamma = 0;    // a byte is light to this power; 0: sRGB
     int orientation = 1; // by EXIF
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
 
-// A profile that is packed in a PNG file; empty if it is damaged or too large. Those of
-// three colours have up to a few hundred kilobytes.
+// Unpacks the colour profile of a PNG file; empty if it is damaged or larger than 4 MB.
+// Profiles of RGB pictures have at most a few hundred kilobytes.
 inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
     Bytes profile(std::size_t(1) << 22);
     const int length = stbi_zlib_decode_buffer(
@@ -142,8 +143,9 @@ inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
     return profile;
 }
 
-// Decodes the bytes of a picture; errors go to refuse(why). `wanted` is the number of
-// bytes per pixel, of which `colors` are in sRGB. See decode_image() for `others`.
+// Decodes the bytes of a picture, and calls refuse(why) for an error. `wanted` is the
+// number of bytes per pixel. `colors` says whether the bytes are used as sRGB colours.
+// `others` is explained in decode_image().
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,
                           Refuse refuse) {
@@ -187,7 +189,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
         if (const std::string why = too_large_beside(others, wide, high); !why.empty())
             refuse(why);
     };
-    // stb_image would report a PNG file that is too large as damaged.
+    // stb_image would call a PNG file damaged that is only too large.
     if (png && png_number(bytes, 12) == 0x49484452u)
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
@@ -203,11 +205,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         refuse("is not a picture that can be read: its header is damaged or unknown");
-    // The rows of a BMP file whose height is below 0 are stored from the top.
+    // A negative height in a BMP file means that its rows are stored from the top.
     const long long high = std::abs(static_cast<long long>(height));
     require_size(width, high);
-    // The largest number of pixels per byte: PNG packs a thousand bytes of eight pixels
-    // into one, JPEG 64 pixels into a bit. stb_image fills missing data with zeros.
+    // The largest number of pixels per byte: PNG packs about a thousand bytes, of eight
+    // pixels each, into one; JPEG packs 64 pixels into a bit. A shorter file is
+    // refused, because stb_image would fill missing data with zeros.
     const std::size_t most = png ? 8256 : 1024;
     if (is_bmp ? bmp.bytes(std::size_t(width), std::size_t(high)) > bytes.size()
                : std::size_t(width) * std::size_t(high) / most > bytes.size())
@@ -216,7 +219,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
         stbi_load_from_memory(data, size, &width, &height, &channels, wanted));
     picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
-    const char* const why = stbi_failure_reason(); // it may repeat bytes of the file
+    const char* const why = stbi_failure_reason(); // may quote bytes of the file
     refuse(join({"is damaged: ", shown(why != nullptr ? why : "error", 48)}));
     return picture;
 }
@@ -226,17 +229,18 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 
 /// Decodes a picture.
 /// \param bytes   The file.
-/// \param path    Its name for messages.
-/// \param others  The number of pixels in pictures that are kept beside it: a file of
-///                four kilobytes can have thirty million, so all together are limited.
-/// \param content Which part of it is wanted.
-/// \return Colours or numbers in [0, 1]. Colours of a PNG file with a gAMA chunk and
-///         neither an sRGB chunk nor a profile are decoded by its gamma; a picture is
-///         turned upright by its EXIF orientation. Pixels behind the end of a palette
-///         are black.
-/// \throws std::runtime_error  with path and reason, if it is not a picture, or too
-///         large, or if its colours are wanted and the file says that they are not
-///         those of sRGB; std::bad_alloc if there is not enough memory.
+/// \param path    The path of the file, for messages.
+/// \param others  The number of pixels in other pictures that are kept. All pictures
+///                together are limited, because a file of four kilobytes can have
+///                thirty million pixels.
+/// \param content What is read from the picture.
+/// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
+///         file has neither an sRGB chunk nor a profile. The picture is turned upright
+///         by its EXIF orientation. A pixel whose number is beyond the end of its
+///         palette is black.
+/// \throws std::runtime_error  with path and reason, if the file is not a picture or is
+///         too large, or if colours are read from a file that declares other colours
+///         than sRGB; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,
@@ -245,7 +249,7 @@ template <std::floating_point T = float>
         throw std::runtime_error(detail::join({shown_path(path), " ", why, "."}));
     };
 #ifdef LJUS_HAS_STB_IMAGE
-    const detail::StbMemory memory; // which outlives the picture
+    const detail::StbMemory memory; // must outlive the picture
     const bool colors = content == PictureContent::colors;
     const bool opacity =
         content == PictureContent::alpha || content == PictureContent::mask;
@@ -260,12 +264,13 @@ template <std::floating_point T = float>
                            : picture.gamma > 0 ? std::pow(byte, 1 / picture.gamma)
                                                : srgb_decode(byte));
     }
-    // Which bytes become red, green and blue.
+    // The bytes of a pixel that become red, green and blue.
     const bool red = content == PictureContent::mask && !picture.has_alpha;
     const std::array<int, 3> from_byte = red       ? std::array{0, 0, 0}
                                          : opacity ? std::array{3, 3, 3}
                                                    : std::array{0, 1, 2};
-    // 2 to 4: mirrored or turned by half; 5 to 8: those with rows for columns.
+    // 2 to 4: mirrored, or turned by 180 degrees; 5 to 8 in addition exchange rows and
+    // columns.
     const int turn = picture.orientation;
     const bool rows_for_columns = turn >= 5 && turn <= 8;
     const bool from_right = turn == 2 || turn == 3 || turn == 7 || turn == 8;
@@ -295,7 +300,7 @@ template <std::floating_point T = float>
 #endif
 }
 
-/// Loads a picture, for a texture; as decode_image().
+/// Loads a picture from a file and decodes it as decode_image() does.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_image(const std::string& path, long long others = 0,
                                    PictureContent content = PictureContent::colors) {

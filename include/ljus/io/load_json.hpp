@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_json.hpp
-/// \brief Scenes from JSON files.
+/// \brief Reads scenes from JSON files.
 
 #include <map>
 
@@ -26,14 +26,14 @@ namespace ljus {
 ///      "objects": [{"type": "sphere", "material": "grey", "center": [0, 1, 0],
 ///                   "radius": 1, "emission": [2, 2, 2]}]}
 ///
-/// All objects and their members: \ref ch_scene_files.
+/// All members of scene files are listed in \ref ch_scene_files.
 /// \{
 
 /// The content of a scene file.
 template <std::floating_point T>
 struct LoadedSceneT {
     detail::FileSceneT<T> scene; ///< Shapes, materials, lights and fog.
-    LensCameraT<T> camera;       ///< The camera; its lens may have the radius 0.
+    LensCameraT<T> camera;       ///< The camera; a lens radius of 0 means a pinhole.
     std::string name;            ///< Name of the scene on one line, or empty.
     int width = 0;               ///< Width of the picture, in pixels.
     int height = 0;              ///< Height of the picture, in pixels.
@@ -45,7 +45,8 @@ namespace detail {
 /// The largest file that load_json() accepts, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
-/// The largest number of soap films; the colours of each take a tenth of a second.
+/// The largest number of soap films. The colours of each film take a tenth of a second
+/// to compute.
 inline constexpr std::size_t max_soap_films = 16;
 
 inline constexpr JsonMember camera_members[]{
@@ -125,7 +126,7 @@ void read_image_size(const JsonField& field, LoadedSceneT<T>& loaded) {
                      "\"box\", the only filter that scene files support");
 }
 
-// The materials of a scene, by name.
+// Reads the materials of a scene, by name.
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& scene) {
     std::size_t films = 0;
@@ -142,7 +143,7 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
     return materials;
 }
 
-// Requires a valid number of lights; emissive `objects` count.
+// Requires a valid number of lights, including emissive objects.
 inline void require_lights(const JsonField& objects, std::size_t lights) {
     if (lights == 0)
         refuse(objects, "has no light; give an object an emission above 0, or add a "
@@ -183,9 +184,12 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 
 /// Reads a scene from the text of a scene file.
 /// \param source  The text.
-/// \param file    The name of the file for messages.
-/// \param load_meshes  Called as load_meshes(path, scale, normals), once for each mesh
-///         file, scale and normals; returns a vector of meshes. WithExr adds pictures.
+/// \param file    The path of the file, for messages. Other files are looked for in its
+///                folder.
+/// \param load_meshes  Reads mesh files, for example MeshFiles. Called as
+///                     load_meshes(path, scale, normals), once for each combination of
+///                     these, and returns a vector of meshes. WithExr also reads EXR
+///                     pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
@@ -200,7 +204,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 
 /// Loads a scene file.
 /// \param path  The file.
-/// \param load_meshes  As for read_json_scene(): MeshFiles, WithExr, or nothing.
+/// \param load_meshes  As in read_json_scene(): MeshFiles, WithExr, or nothing.
 /// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
 ///         file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_mesh.hpp
-/// \brief Meshes from a file of any known format, and the meshes of scene files.
+/// \brief Reads mesh files of all known formats, also those that scene files name.
 
 #include <nlohmann/json.hpp>
 
@@ -15,10 +15,10 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
-/// Loads a mesh file; the end of its name says which format it has: .obj, .ply, .stl,
-/// .gltf or .glb, in small or in capital letters.
+/// Loads a mesh file. The extension of its name gives the format: .obj, .ply, .stl,
+/// .gltf or .glb, in small or capital letters.
 /// \return As load_obj(), load_ply(), load_stl() or load_gltf().
-/// \throws std::runtime_error  as they do, and for a name with another end.
+/// \throws std::runtime_error  as these functions do, or if the extension is unknown.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_mesh(const std::string& path,
                                        const MeshFileSettings& settings = {}) {
@@ -33,17 +33,19 @@ template <std::floating_point T = float>
                            "or .glb.");
 }
 
-/// Reads the meshes of a scene file: load_json("scene.json", MeshFiles{}). They are
-/// made of what the scene file says, or of the materials of the mesh file.
+/// Reads the mesh files that a scene file names: load_json("scene.json", MeshFiles{}).
+/// If the scene file gives a mesh no material, the mesh has the materials of the mesh
+/// file.
 template <std::floating_point T>
 struct MeshFilesT {
-    std::string* report = nullptr; ///< Takes what is wrong, a line a trouble.
+    std::string* report = nullptr; ///< Receives the problems of the files, one per
+                                   ///< line; null: they are ignored.
 
     /// Reads one file.
     /// \param path     The file.
     /// \param scale    Every coordinate is multiplied by this.
     /// \param normals  "file", "smooth" or "flat".
-    /// \return All its meshes.
+    /// \return All meshes of the file.
     /// \throws std::runtime_error  as load_mesh().
     [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
                                                    double scale,
@@ -55,7 +57,8 @@ struct MeshFilesT {
     }
 
     /// Reads one file with its materials.
-    /// \return Its content; the report says if it has lights, which are not used.
+    /// \return The content of the file. Lights of the file are not used, and are
+    ///         mentioned in the report.
     /// \throws std::runtime_error  as load_mesh().
     [[nodiscard]] LoadedMeshT<T> with_materials(const std::string& path, double scale,
                                                 const std::string& normals) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_obj.hpp
-/// \brief Meshes from OBJ files.
+/// \brief Reads meshes from OBJ files.
 
 #include <algorithm>
 #include <array>
@@ -26,13 +26,14 @@ namespace ljus {
 ///
 ///     const auto teapot = load_obj("teapot.obj", {.scale = 0.1});
 ///     std::fputs(to_text(teapot.report).c_str(), stderr);
-///     add_meshes(scene, teapot);                          // colours of the file
-///     scene.add(teapot.parts[0].mesh, scene.add(Glass{}));  // or one's own
+///     add_meshes(scene, teapot); // in the colours of the file
+///     scene.add(teapot.parts[0].mesh, scene.add(Glass{})); // or one part, in glass
 /// \{
 
 namespace detail {
 
-// The file that another one names, on any system: "maps\wall.png" beside it.
+// The path of a file that another file names, with slashes for the backslashes of
+// Windows: "maps\wall.png".
 inline std::string file_named(const std::string& beside, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return path_beside(beside, name);
@@ -40,15 +41,15 @@ inline std::string file_named(const std::string& beside, std::string name) {
 
 // Reads one material file, line by line.
 struct MaterialReader {
-    const std::string& path;                        // of the file
-    std::map<std::string, MeshMaterial>& materials; // takes what is read
-    std::vector<std::string>& notes;                // takes a sentence a trouble
+    const std::string& path;                        // path of the file
+    std::map<std::string, MeshMaterial>& materials; // receives the materials
+    std::vector<std::string>& notes;                // receives a sentence per problem
 
-    MeshMaterial ignored{}; // for lines before the first material, or of a name again
+    MeshMaterial ignored{}; // for lines that belong to no new material
     MeshMaterial* material = &ignored;
     bool has_diffuse = false, has_dissolve = false;
-    std::string mirror_at{}; // where illum stands
-    long long number = 0;    // of the line
+    std::string mirror_at{}; // place of the line illum
+    long long number = 0;    // number of the line
     UnusedLines others{};
 
     std::string where() const {
@@ -60,7 +61,7 @@ struct MaterialReader {
     void note(std::string_view keyword, const std::string& what) {
         note_at(where(), shown(std::string(keyword)) + " " + what);
     }
-    // One number, or three; of one there are three alike.
+    // Reads a colour: three numbers, or one that is used three times.
     void color(std::string_view keyword, Words words, glm::dvec3& to, double most) {
         const std::string text = words.name();
         glm::dvec3 value(number_of(words.next()));
@@ -88,8 +89,8 @@ struct MaterialReader {
                               to_text(least) + " to " + to_text(most) +
                               ". It is not used.");
     }
-    // Takes an option of the picture of colours: where it lies, and if it repeats.
-    // Returns whether it is known.
+    // Uses an option of the picture of colours: its scale, its offset, or whether it
+    // repeats. Returns whether the option is known.
     bool take(std::string_view option, const std::array<double, 2>& numbers,
               std::string_view word) {
         glm::dvec2 value(numbers[0], numbers[1]);
@@ -105,8 +106,8 @@ struct MaterialReader {
             return false;
         return true;
     }
-    // The name of a picture, behind options that say how it lies. Those of map_Kd are
-    // used, and count for all pictures of the material.
+    // Reads the name of a picture, which follows options. The options of map_Kd are
+    // used, for all pictures of the material; others are ignored.
     void picture(std::string_view keyword, Words words, MeshImage& to) {
         std::string unused;
         for (Words after = words;; words = after) {
@@ -144,7 +145,7 @@ struct MaterialReader {
                 note_at(is.picture.at,
                         "map_Kd is multiplied by Kd, which is 0; 1 is used.");
         }
-        // Programs to which 1 is opaque write it beside a picture.
+        // Some programs write Tr 1 for an opaque material with a picture.
         if (pictured && !has_dissolve && is.dissolve == 0) {
             is.dissolve = 1;
             note_at(is.picture.at, "map_Kd is on a surface that Tr 1 makes wholly "
@@ -213,13 +214,14 @@ struct MaterialReader {
     }
 };
 
-// The materials of all files that a mesh file names; the first of a name counts.
+// The materials of all material files that a mesh file names. If two materials have one
+// name, the first is used.
 struct MaterialLibraries {
     std::map<std::string, MeshMaterial> materials{};
-    std::map<std::string, bool> read{}; // whether a file could be, by one_path()
+    std::map<std::string, bool> read{}; // whether it succeeded, by one_path()
 
-    // A line "mtllib": the name of one file, or those of several without blanks. A file
-    // that is named again is not read again.
+    // Reads the files of a line "mtllib", which has the name of one file, or names of
+    // several files without blanks in them. No file is read twice.
     void add(const std::string& names, const std::string& file, long long line,
              MeshReport& report) {
         if (add_file(file_named(file, names), report)) return;
@@ -238,21 +240,22 @@ private:
                 const std::string text = load_text(path, max_mesh_file);
                 MaterialReader{path, materials, report.notes}.read(text);
                 known->second = true;
-            } catch (const std::runtime_error&) { // it is reported where it is named
+            } catch (const std::runtime_error&) { // add() reports it
             }
         }
         return known->second;
     }
 };
 
-// The number, from 0, that a number of the file means in a list of `count`.
+// The index, from 0, that a number of the file means in a list of `count` elements.
+// Numbers count from 1, or backwards from -1; others give no_number.
 inline std::uint32_t place_of(long long number, std::size_t count) {
     const auto all = static_cast<long long>(count);
     if (number == 0 || number > all || number < -all) return no_number;
     return static_cast<std::uint32_t>(number > 0 ? number - 1 : number + all);
 }
 
-// Reads a file line by line. Which materials there are is known at its end.
+// Reads a file line by line. Names of materials are resolved at its end.
 template <std::floating_point T>
 class ObjReader {
 public:
@@ -267,9 +270,11 @@ public:
         });
     }
 
-    // The faces by material, in the order of its first use, and the whole report.
+    // Returns the faces by material, in the order in which materials are first used,
+    // and completes the report.
     std::vector<MeshFacesT<T>> take_faces(MeshReport& report) {
-        std::vector<const MeshMaterial*> known(names_.size() + 1); // nullptr for none
+        std::vector<const MeshMaterial*> known(names_.size() + 1); // nullptr: no
+                                                                   // material
         for (const auto& [name, use] : names_) {
             const auto found = libraries_.materials.find(name);
             if (found == libraries_.materials.end())
@@ -286,10 +291,10 @@ public:
     }
 
 private:
-    // A name of a material.
+    // The name of a material in lines usemtl.
     struct Name {
         std::uint32_t number;
-        MeshCount at; // lines usemtl
+        MeshCount at; // how often, and first line
     };
 
     void read_line(Words words) {
@@ -300,7 +305,7 @@ private:
             mesh_.add_normal(three_numbers(words));
         else if (keyword == "vt")
             texture(words);
-        else if (keyword == "f" || keyword == "fo") // as old files have it
+        else if (keyword == "f" || keyword == "fo") // in old files
             face(words);
         else if (keyword == "usemtl")
             use(words.name());
@@ -321,7 +326,7 @@ private:
     void vertex(Words words) {
         mesh_.add_position(three_numbers(words));
         Words color = words;
-        (void)words.next(); // a weight, or red: a colour has three numbers
+        (void)words.next(); // a weight, or the red of a colour
         if (words.next().empty()) return;
         glm::dvec3 light = three_numbers(color);
         for (int i = 0; i < 3; ++i)
@@ -330,7 +335,7 @@ private:
     }
     void texture(Words words) {
         const double u = number_of(words.next());
-        const std::string_view second = words.next(); // of a picture of one row: none
+        const std::string_view second = words.next(); // missing for one-row pictures
         mesh_.add_uv(u, second.empty() ? 0 : number_of(second));
     }
     void use(const std::string& name) {
@@ -357,7 +362,7 @@ private:
             if (end > 0 && at[k] == no_number) mesh_.miss(k);
             word.remove_prefix(std::min(end + 1, word.size()));
         }
-        // A word that is written otherwise means no position.
+        // A word of another form names no position.
         if (!word.empty()) mesh_.miss(of_position);
         mesh_.add_corner(at[of_position], at[of_uv], at[of_normal]);
     }
@@ -366,14 +371,14 @@ private:
         mesh_.end_face();
     }
 
-    // What belongs to curves, or says how others draw faces.
+    // Keywords of curves, and of the way in which other programs draw faces.
     static constexpr std::string_view without_effect[]{
         "",       "vp",     "cstype",     "deg",      "bmat", "step",  "parm",
         "trim",   "hole",   "scrv",       "sp",       "end",  "con",   "res",
         "mg",     "bevel",  "c_interp",   "d_interp", "lod",  "ctech", "stech",
         "maplib", "usemap", "shadow_obj", "trace_obj"};
 
-    const std::string& file_; // its name, beside which its material files are
+    const std::string& file_; // the path; material files are in its folder
     UnusedLines unused_{};
     LineReader text_;
     MeshBuilder<T> mesh_;
@@ -381,12 +386,12 @@ private:
     std::map<std::string, Name> names_{};
 };
 
-// The bytes of a picture.
+// The bytes of a picture file.
 inline Bytes picture_file(const std::string& path) {
     return load_file(path, max_image_file);
 }
 
-// The meshes of a file, which `read` gives to an ObjReader.
+// Makes the meshes of a file. read(reader) passes the text of the file to an ObjReader.
 template <std::floating_point T, typename Read>
 LoadedMeshT<T> read_obj_pieces(const std::string& file,
                                const MeshFileSettings& settings, Read read) {
@@ -404,14 +409,14 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
 
 } // namespace detail
 
-/// Reads meshes from the text of an OBJ file. Faces of one material, wherever they
-/// stand, are one mesh; those of more than three corners are cut by cut_polygon().
+/// Reads meshes from the text of an OBJ file. All faces of one material form one mesh.
+/// A face with more than three corners is cut into triangles by cut_polygon().
 /// \param text      The text.
-/// \param file      What messages call it: its name; material files are looked for
-///                  beside it.
+/// \param file      The path of the file, for messages. Material files are looked for
+///                  in its folder.
 /// \param settings  Scale and normals.
-/// \return The meshes, and what is wrong with the file: what cannot be used is left
-///         out, and counted.
+/// \return The meshes, and a report of the problems of the file. Parts that cannot be
+///         used are left out and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
 ///         cannot be made: "box.obj: no face of the file can be used; the first
 ///         problem: line 7: 12 faces refer to a vertex that does not exist; ..."

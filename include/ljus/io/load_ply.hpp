@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_ply.hpp
-/// \brief Meshes from PLY files.
+/// \brief Reads meshes from PLY files.
 
 #include <array>
 #include <optional>
@@ -18,9 +18,9 @@ namespace ljus {
 
 namespace detail {
 
-// A type of numbers in a PLY file.
+// A number type of PLY files.
 struct PlyType {
-    std::string_view name, other_name; // of old files, and of newer ones
+    std::string_view name, other_name; // in old files, in newer files
     std::size_t size;                  // bytes
     char kind;                         // i: signed, u: unsigned, f: floating point
 };
@@ -37,7 +37,7 @@ inline constexpr std::array<PlyType, 8> ply_types{{{"char", "int8", 1, 'i'},
 struct PlyProperty {
     std::string_view name;
     PlyType type;
-    std::optional<PlyType> count{}; // of a list
+    std::optional<PlyType> count{}; // type of a list's length
 };
 struct PlyElement {
     std::string_view name;
@@ -45,7 +45,8 @@ struct PlyElement {
     std::vector<PlyProperty> properties{};
 };
 
-// Where a vertex has what: indices of its properties, or -1.
+// The indices of the properties that give the position, normal, colour and texture
+// coordinates of a vertex; -1 for none.
 struct PlyVertex {
     std::array<int, 3> position{-1, -1, -1}, normal{-1, -1, -1}, color{-1, -1, -1};
     std::array<int, 2> uv{-1, -1};
@@ -94,7 +95,8 @@ private:
             Words words{line};
             const std::string_view keyword = words.next();
             if (keyword == "end_header") {
-                // Behind a CR alone LF is the first byte of a binary file's numbers.
+                // If lines end in CR alone, an LF that follows belongs to the binary
+                // numbers.
                 const std::size_t used = line.size() + 1;
                 const auto from = static_cast<std::size_t>(line.data() - all.data());
                 if (cr) rest_ = all.substr(std::min(from + used, all.size()));
@@ -159,7 +161,7 @@ private:
                      std::to_string(element.count), ", ",
                      shown(std::string(element.name))}));
     }
-    // The next number of the file; NaN for a word that is none.
+    // Reads the next number of the file; NaN for a word that is no number.
     double number(const PlyType& type, const PlyElement& element, std::size_t i) {
         if (ascii_) {
             constexpr std::string_view blanks = " \t\r\n";
@@ -183,7 +185,7 @@ private:
                          std::to_string(element.count), ", ",
                          shown(std::string(element.name)), ", has a list of ",
                          to_text(count), " numbers; it must be a whole number"}));
-        // A number takes a byte at least, in a text with the blank before it two.
+        // Each number takes at least one byte, in a text at least two with its blank.
         if (count > double(rest_.size())) end_early(element, i);
         return static_cast<std::size_t>(count);
     }
@@ -204,8 +206,8 @@ private:
                        at("blue", "diffuse_blue")},
                 .uv{at("u", "s", "texture_u"), at("v", "t", "texture_v")}};
     }
-    // All elements. Faces that stand before the vertices are passed over, and read
-    // when the vertices are known.
+    // Reads all elements. Faces that precede the vertices in the file are read after
+    // the vertices.
     void read_elements() {
         const auto is_vertex = [](const PlyElement& e) { return e.name == "vertex"; };
         const auto vertices =
@@ -234,7 +236,7 @@ private:
         return property.count &&
                (property.name == "vertex_indices" || property.name == "vertex_index");
     }
-    // Says which properties of vertices and faces are not used.
+    // Notes which properties of vertices and faces are not used.
     void note_unused(const PlyElement& element, const PlyVertex& has) {
         std::string unused;
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -256,14 +258,14 @@ private:
     static bool whole(const std::array<int, N>& at) {
         return std::all_of(at.begin(), at.end(), [](int k) { return k >= 0; });
     }
-    // `pass_over` is for faces.
+    // Reads all elements of one kind; with `pass_over` faces are only skipped.
     void read_element(const PlyElement& element, bool pass_over) {
         const bool vertex = element.name == "vertex";
         const bool face = element.name == "face" && !pass_over;
         const PlyVertex has = vertex ? properties_of(element) : PlyVertex{};
         if (vertex && !whole(has.position))
             refuse("its vertices must have the properties x, y and z");
-        if (element.properties.empty()) return; // it takes no bytes
+        if (element.properties.empty()) return; // such elements take no bytes
         if (vertex || face) note_unused(element, has);
         if (element.count > 0 && !vertex && element.name != "face")
             mesh_.report.notes.push_back(join(
@@ -320,7 +322,7 @@ private:
                          normals_ ? at : no_number);
     }
 
-    std::string_view rest_; // of the file
+    std::string_view rest_; // unread part of the file
     const std::string& file_;
     MeshBuilder<T> mesh_;
     std::vector<PlyElement> elements_{};
@@ -331,16 +333,16 @@ private:
 } // namespace detail
 
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
-/// It has positions (x, y, z), perhaps normals (nx, ny, nz), texture coordinates (u, v;
-/// s, t; texture_u, texture_v), colours (red, green, blue, with diffuse_ before them or
-/// not) and faces of any number of corners. Colours make the mesh white under a
-/// picture of them. Whole numbers are colours as a screen has them, from 0 to the
-/// largest number of their type; broken ones too, from 0 to 1.
-/// \return One mesh without a material, and what is wrong with the file.
+/// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
+/// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
+/// with diffuse_ before each). Faces may have any number of corners. Colours are sRGB,
+/// as integers from 0 to the largest of their type or as floats from 0 to 1. They
+/// become a picture on a white mesh.
+/// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
-/// \cost Linear in the size of the file, which bounds its memory.
+/// \cost Time and memory linear in the size of the file.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_ply(Bytes bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {

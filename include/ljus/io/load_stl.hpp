@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_stl.hpp
-/// \brief Meshes from STL files.
+/// \brief Reads meshes from STL files.
 
 #include <utility>
 
@@ -16,7 +16,7 @@ namespace ljus {
 
 namespace detail {
 
-// The size of a binary file's head, and of each of its triangles.
+// The size of a binary file's header, and of one triangle, in bytes.
 inline constexpr std::size_t stl_head = 84, stl_triangle = 50;
 
 // The bytes of an STL file.
@@ -30,8 +30,8 @@ struct StlText {
     [[nodiscard]] std::uint32_t word(std::size_t at) const {
         return static_cast<std::uint32_t>(unsigned_value(text.substr(at, 4)));
     }
-    // Whether it is text: programs write binary files that begin with "solid" too, but
-    // in these a byte of the head is 0, if only one of the number of triangles.
+    // Whether the file is a text. Some binary files begin with "solid" as well, but
+    // some byte of their header is 0: at least one byte of the number of triangles.
     [[nodiscard]] bool is_text() const {
         const std::string_view plain = plain_text(text, file);
         const std::size_t begin = plain.find_first_not_of(" \t\r\n");
@@ -46,15 +46,15 @@ struct StlReader {
     StlText from;
     MeshBuilder<T>& mesh;
     MeshReport& report = mesh.report;
-    std::vector<glm::dvec3> face{}; // the corners that are read
-    EqualPoints<double> numbers{};  // of the mesh's positions
+    std::vector<glm::dvec3> face{}; // corners read so far
+    EqualPoints<double> numbers{};  // indices of positions
 
-    // Points that are none are all alike, for EqualPoints.
+    // Adds a corner. All points that are not finite become equal, for EqualPoints.
     void add(const glm::dvec3& point) {
         constexpr double none = std::numeric_limits<double>::infinity();
         face.push_back(is_finite(point) ? point : glm::dvec3(none));
     }
-    // The face of the corners so far, which decide which side is its front.
+    // Ends a face. The order of its corners decides which side is the front.
     void end_face(const glm::dvec3& normal, std::size_t place) {
         mesh.place = static_cast<long long>(place);
         if (face.size() >= 3 &&
@@ -69,7 +69,7 @@ struct StlReader {
         mesh.end_face();
         face.clear();
     }
-    // A point, or the normal of a binary triangle.
+    // A point or a normal of a binary file.
     [[nodiscard]] glm::dvec3 three_floats(std::size_t at) const {
         glm::dvec3 three;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -106,7 +106,7 @@ struct StlReader {
                 "the triangles have attributes, perhaps colours; they are not used.");
     }
     void read_text() {
-        bool open = false; // a solid that has not ended
+        bool open = false; // whether a solid has not ended
         glm::dvec3 normal(0);
         LineReader{from.file}.read(
             from.text, true, [&](std::string_view line, long long number) {
@@ -136,14 +136,14 @@ struct StlReader {
 
 } // namespace detail
 
-/// Reads a mesh from the bytes of an STL file, text or binary. Corners at one place are
-/// one vertex. The normals of the file are not used: they are those of its triangles,
-/// and where they point to the other side, the report says so.
-/// \return One mesh without a material, and what is wrong with the file.
+/// Reads a mesh from the bytes of an STL file, text or binary. Corners at the same
+/// position become one vertex. The normals of the file are not used. The report says
+/// where a normal points to the other side of its triangle.
+/// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().
 /// \throws std::invalid_argument  for a scale that is not finite and above 0.
-/// \cost Linear in the size of the file, which bounds its memory.
+/// \cost Time and memory linear in the size of the file.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_stl(Bytes bytes, const std::string& file,
                                       const MeshFileSettings& settings = {}) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/mesh_file.hpp
-/// \brief The content of a mesh file, of whatever format.
+/// \brief The content of a mesh file, in a form that is the same for all formats.
 
 #include <cstdint>
 #include <map>
@@ -28,59 +28,62 @@
 namespace ljus {
 
 /// \defgroup mesh_file The content of mesh files
-/// \brief What load_obj(), load_ply(), load_stl() and load_gltf() return.
+/// \brief The result of load_obj(), load_ply(), load_stl() and load_gltf().
 /// \{
 
-/// The normals of a mesh from a file.
+/// The normals that a mesh from a file gets.
 enum class MeshNormals : std::uint8_t {
-    file,   ///< Those of the file, or of the triangles if it has none.
-    smooth, ///< Those of smooth_normals(), even if the file has normals.
-    flat    ///< Those of the triangles.
+    file,   ///< The normals of the file, or of the triangles if the file has none.
+    smooth, ///< The normals of smooth_normals(), even if the file has normals.
+    flat    ///< The normals of the triangles.
 };
 
 /// The settings of a mesh file's reader.
 struct MeshFileSettings {
     double scale = 1;                        ///< Factor of every coordinate.
-    MeshNormals normals = MeshNormals::file; ///< Which normals.
-    bool pictures = true; ///< True: loads the pictures of materials and makes one of
-                          ///< the colours of vertices.
+    MeshNormals normals = MeshNormals::file; ///< The normals of the meshes.
+    bool pictures = true; ///< Whether to load the pictures of materials, and to make a
+                          ///< picture of vertex colours.
 };
 
 /// A picture of a material.
 struct MeshImage {
-    std::string name{}; ///< Its name in the pictures of the file; empty: none.
-    std::string at{};   ///< Where it is named: "room.mtl, line 12".
+    std::string name{}; ///< Key in LoadedMeshT::pictures; empty: no picture.
+    std::string at{};   ///< The place that names the picture: "room.mtl, line 12".
 };
 
 /// A material as a mesh file describes it.
 struct MeshMaterial {
-    std::string name{};        ///< Empty for faces without a material.
-    glm::dvec3 diffuse{0.5};   ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
-                               ///< above 0. In glTF the base colour.
-    glm::dvec3 specular{0};    ///< Ks, in [0, 1]; in glTF the base colour of a metal.
-    glm::dvec3 emission{0};    ///< Ke, W/(m^2 sr), at least 0.
-    double roughness = 0;      ///< Of a mirror, 0 or in [0.01, 1]; see GlossyT.
-    double index = 1.5;        ///< Ni, within [0.001, 1000].
-    double dissolve = 1;       ///< d, or 1 - Tr: 0 is clear. Tr 1 under a picture is
-                               ///< taken for opaque.
-    int illumination = 2;      ///< illum: 3, 5 and 8 mirror; 4, 6, 7 and 9 are glass
-                               ///< unless Ni is 1, which some programs write for all.
-    MeshImage picture{};       ///< Its colours are multiplied by `diffuse`.
-    MeshImage mask{};          ///< Alpha; see Holes.
-    MeshImage normals{};       ///< See NormalMapT.
-    bool mask_is_alpha = true; ///< False: red where the picture has no alpha.
-    double cutoff = 0.5;       ///< The least alpha that is solid; at least 0.
-    UvMapT<double> map{};      ///< How all of its pictures lie on it,
-    PictureWrap wrap{};        ///< what they show beyond their borders,
-    PictureFilter filter{};    ///< and between their pixels.
+    std::string name{};      ///< Name in the file; empty for faces without a material.
+    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
+                             ///< above 0. In glTF the base colour.
+    glm::dvec3 specular{0};  ///< Ks, in [0, 1]; in glTF the base colour of a metal.
+    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
+    double roughness = 0;    ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
+    double index = 1.5;      ///< Index of refraction Ni, within [0.001, 1000].
+    double dissolve = 1;     ///< Opacity d, or 1 - Tr; 0 is clear. Beside a picture,
+                             ///< Tr 1 is taken for opaque.
+    /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. They are not
+    /// glass if Ni is 1, since some programs write them for every material.
+    int illumination = 2;
+    MeshImage picture{}; ///< A picture of colours, which are multiplied by `diffuse`.
+    MeshImage mask{};    ///< A picture of alpha, which cuts holes; see Holes.
+    MeshImage normals{}; ///< A picture of normals; see NormalMapT.
+    bool mask_is_alpha = true; ///< Whether `mask` is the alpha of its picture; false:
+                               ///< red if that picture has no alpha.
+    double cutoff = 0.5;    ///< There is a hole where alpha is below this; at least 0.
+    UvMapT<double> map{};   ///< How all pictures of the material lie on it.
+    PictureWrap wrap{};     ///< What the pictures show beyond their borders.
+    PictureFilter filter{}; ///< How the pictures are filtered between pixels.
 
-    /// Whether it is glass: by illum, or because d says that it is mostly clear.
+    /// Whether the material is glass: by its `illumination`, or because `dissolve` is
+    /// below 0.5.
     [[nodiscard]] bool is_glass() const noexcept {
         const int i = illumination;
         const bool glass = i == 4 || i == 6 || i == 7 || i == 9;
         return (glass && index != 1) || dissolve < 0.5;
     }
-    /// Whether it is a mirror or a metal.
+    /// Whether the material is a mirror or a metal.
     [[nodiscard]] bool is_mirror() const noexcept {
         return illumination == 3 || illumination == 5 || illumination == 8;
     }
@@ -89,29 +92,31 @@ struct MeshMaterial {
 /// All faces of one material.
 template <std::floating_point T>
 struct MeshPartT {
-    MeshT<T> mesh;         ///< Its triangles.
-    MeshMaterial material; ///< Its material in the file.
+    MeshT<T> mesh;         ///< The triangles of the part.
+    MeshMaterial material; ///< The material of the part.
 };
 
 /// A camera of a mesh file.
 template <std::floating_point T>
 struct MeshCameraT {
-    std::string name;  ///< Its name in the file; it may be empty.
-    CameraT<T> camera; ///< Where it stands, and what it sees.
+    std::string name;  ///< Name in the file; may be empty.
+    CameraT<T> camera; ///< The camera itself.
 };
 
 /// The content of a mesh file.
 template <std::floating_point T>
 struct LoadedMeshT {
-    std::vector<MeshPartT<T>> parts{}; ///< One per material, in order of first use.
-    MeshReport report{};               ///< The problems of the file.
+    std::vector<MeshPartT<T>> parts{}; ///< The parts, one per material, in order of
+                                       ///< first use.
+    MeshReport report{};               ///< The problems of the file, and counts.
     /// The pictures of the materials that could be read, by name: colours, alpha and
     /// normals.
     std::map<std::string, ImageT<T>> pictures{};
-    std::vector<MeshCameraT<T>> cameras{}; ///< Of glTF files, in the order of nodes.
-    std::vector<PointLightT<T>> points{};  ///< Of glTF files.
-    std::vector<SpotLightT<T>> spots{};    ///< Of glTF files.
-    std::vector<SunLightT<T>> suns{};      ///< Of glTF files: directional lights.
+    std::vector<MeshCameraT<T>> cameras{}; ///< Cameras of a glTF file, in the order of
+                                           ///< its nodes.
+    std::vector<PointLightT<T>> points{};  ///< Point lights of a glTF file.
+    std::vector<SpotLightT<T>> spots{};    ///< Spot lights of a glTF file.
+    std::vector<SunLightT<T>> suns{};      ///< Directional lights of a glTF file.
 };
 using LoadedMesh = LoadedMeshT<float>; ///< LoadedMeshT in float.
 
@@ -125,24 +130,25 @@ template <std::floating_point T, typename Map = UvMapT<T>>
 using MeshMetalPictureT = Textured<GlossyT<T>, PictureTextureT<T, Map>>;
 using MeshMetalPicture = MeshMetalPictureT<float>; ///< MeshMetalPictureT in float.
 
-/// Any of these surfaces with holes and a normal map; see add_meshes().
+/// A surface with a picture, holes and a normal map; see add_meshes().
 template <Material Base, std::floating_point T = typename Base::Scalar>
 using MeshDetailedT =
     CutOut<Textured<Textured<Base, PictureTextureT<T, UvMapT<T>>>, NormalMapT<T>>,
            PictureTextureT<T, UvMapT<T>>>;
-using MeshDetailed = MeshDetailedT<Lambertian>;  ///< A matt one, in float.
-using MeshMetalDetailed = MeshDetailedT<Glossy>; ///< A metal, in float.
+using MeshDetailed = MeshDetailedT<Lambertian>;  ///< A matt surface, in float.
+using MeshMetalDetailed = MeshDetailedT<Glossy>; ///< A metal surface, in float.
 
 namespace detail {
 
-// A picture of a material; nullptr if there is none, or it could not be read.
+// The pixels of a material's picture; nullptr if there is no picture, or it could not
+// be read.
 template <std::floating_point T>
 const ImageT<T>* find_picture(const LoadedMeshT<T>& loaded, const MeshImage& image) {
     const auto found = loaded.pictures.find(image.name);
     return found == loaded.pictures.end() ? nullptr : &found->second;
 }
 
-// A picture as it lies on a material.
+// The texture that a picture makes on a material.
 template <typename Map, std::floating_point T>
 PictureTextureT<T, Map> laid_picture(const MeshMaterial& is, const ImageT<T>& image) {
     return {.image = image,
@@ -153,8 +159,8 @@ PictureTextureT<T, Map> laid_picture(const MeshMaterial& is, const ImageT<T>& im
             .filter = is.filter};
 }
 
-// A surface with all pictures of a material; what is missing is one pixel that changes
-// nothing.
+// A surface with all pictures of a material. For a missing picture it gets one pixel
+// that has no effect.
 template <Material Base, std::floating_point T>
 MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
                              const LoadedMeshT<T>& loaded) {
@@ -171,11 +177,11 @@ MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
 } // namespace detail
 
 /// Adds a material of a mesh file to a scene, as add_meshes() does.
-/// \tparam Map    As for add_meshes().
-/// \param scene   A scene that lists Lambert's surface.
+/// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
+/// \param scene   A scene that lists Lambertian.
 /// \param is      The material.
-/// \param loaded  Has its pictures.
-/// \return Its number.
+/// \param loaded  The content of the file, with the pictures of the material.
+/// \return The number of the material in the scene.
 template <typename Map = void, typename Scene, std::floating_point T>
 MaterialId add_material(Scene& scene, const MeshMaterial& is,
                         const LoadedMeshT<T>& loaded) {
@@ -215,15 +221,15 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
     return scene.add(matt);
 }
 
-/// Adds all meshes of a file to a scene, each made of what the file says: glass,
-/// mirrors and rough metals where the scene lists Glass, Mirror and Glossy, and else
-/// Lambert's surface with the material's colour; with its picture, if there is one and
-/// the scene lists MeshPicture or, for metals, MeshMetalPicture or MeshMetalDetailed;
-/// with its holes and its normal map if the scene lists MeshDetailed or
-/// MeshMetalDetailed. What glows, glows by the file's emission, and has neither. Lights
-/// of the file are added where the scene lists their types.
+/// Adds all meshes of a file to a scene, with the materials of the file.
+///
+/// Glass, mirrors and rough metals need a scene that lists Glass, Mirror and Glossy;
+/// otherwise they become Lambertian, in their own colour. Pictures need MeshPicture or,
+/// for metals, MeshMetalPicture or MeshMetalDetailed. Holes and normal maps need
+/// MeshDetailed or MeshMetalDetailed. A mesh with emission is a lamp, and has no holes
+/// or normal map. Lights of the file are added if the scene lists their types.
 /// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
-/// \param scene   A scene with meshes and Lambert's surface.
+/// \param scene   A scene that lists Mesh and Lambertian.
 /// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().
 template <typename Map = void, typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
@@ -240,10 +246,10 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
     add_lights(loaded.suns);
 }
 
-/// Adds all meshes of a file to a scene, with one material for all.
-/// \param scene     A scene with meshes.
+/// Adds all meshes of a file to a scene, with one material for all of them.
+/// \param scene     A scene that lists Mesh.
 /// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
-/// \param material  The id that add() returned for it.
+/// \param material  The number that Scene::add() returned for the material.
 /// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/mesh_report.hpp
-/// \brief Problems of a mesh file that do not prevent its use.
+/// \brief A report of the problems of a mesh file that can still be used.
 
 #include <algorithm>
 #include <array>
@@ -17,17 +17,17 @@
 namespace ljus {
 
 /// \defgroup mesh_report Problems of mesh files
-/// \brief Counts of problems, each with the first line where it occurs.
+/// \brief How often each problem occurs, and the first line with it.
 /// \{
 
 /// A problem of a mesh file.
 enum class MeshTrouble : std::uint8_t {
-    bad_number,     ///< A coordinate that is not finite; its faces are left out.
-    bad_normal,     ///< A normal that is 0 or not finite; its faces are flat.
-    bad_uv,         ///< A texture coordinate that is not finite; its faces get (0, 0).
-    no_uv,          ///< A face without texture coordinates in a mesh that has some.
-    bad_index,      ///< A face with a vertex that does not exist, left out.
-    no_such_uv,     ///< A face with a uv that does not exist: it gets (0, 0).
+    bad_number, ///< A coordinate that is not finite; faces with it are left out.
+    bad_normal, ///< A normal that is 0 or not finite; faces with it are flat.
+    bad_uv,     ///< A texture coordinate that is not finite; faces with it get (0, 0).
+    no_uv,      ///< A face without texture coordinates in a mesh that has some.
+    bad_index,  ///< A face with a vertex that does not exist, left out.
+    no_such_uv, ///< A face with a uv that does not exist: it gets (0, 0).
     no_such_normal, ///< A face with a normal that does not exist: it is flat.
     not_smooth,     ///< A face of a smoothing group without normals: it is flat.
     few_corners,    ///< A face with fewer than three corners, left out.
@@ -35,11 +35,12 @@ enum class MeshTrouble : std::uint8_t {
     no_area,        ///< A face without an area, left out.
     crossed,        ///< A face that crosses itself: its triangles overlap.
     turned,         ///< A face whose normals point to its back; they are not used.
-    edge_of_many,   ///< An edge of three faces or more: it has no inside.
+    edge_of_many,   ///< An edge of three or more faces; the mesh has no inside.
     edge_turned,    ///< An edge whose two faces are wound in opposite directions.
-    edge_open,      ///< An edge of one face: the mesh is not closed, no good for glass.
-    inside_out,     ///< All meshes are closed, and their volume is below 0.
-    vertex_color,   ///< A vertex with a colour of its own, which is not used.
+    edge_open,      ///< An edge of one face: the mesh is not closed, and unsuitable for
+                    ///< glass.
+    inside_out,     ///< The mesh is closed, but inside out: its volume is below 0.
+    vertex_color,   ///< A vertex with its own colour, which is not used.
     no_face,        ///< A line, point, curve or surface, left out.
     no_material,    ///< A material that does not exist.
     no_library,     ///< A material file that cannot be read.
@@ -53,37 +54,38 @@ inline constexpr std::size_t mesh_troubles = 21;
 
 /// The number of occurrences of a problem.
 struct MeshCount {
-    long long count = 0; ///< Occurrences.
-    long long line = 0;  ///< The first line, or other MeshReport::unit, from 1.
+    long long count = 0; ///< Number of occurrences.
+    long long line = 0;  ///< The first place, in lines or another MeshReport::unit,
+                         ///< from 1.
 };
 
 /// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
-    long long vertices = 0;    ///< Lines v.
-    long long normals = 0;     ///< Lines vn.
-    long long uvs = 0;         ///< Lines vt.
-    long long objects = 0;     ///< Lines o.
-    long long groups = 0;      ///< Lines g.
+    long long vertices = 0;    ///< Positions, the lines v of an OBJ file.
+    long long normals = 0;     ///< Normals, the lines vn.
+    long long uvs = 0;         ///< Texture coordinates, the lines vt.
+    long long objects = 0;     ///< Objects, the lines o.
+    long long groups = 0;      ///< Groups, the lines g.
     long long faces = 0;       ///< Faces that are used.
-    long long polygons = 0;    ///< Those of more than three corners, which are cut.
-    long long flat_faces = 0;  ///< Those whose normals are missing or not used.
-    long long no_uv_faces = 0; ///< Those without usable texture coordinates.
+    long long polygons = 0;    ///< Faces of more than three corners, which are cut.
+    long long flat_faces = 0;  ///< Faces whose normals are missing or not used.
+    long long no_uv_faces = 0; ///< Faces without usable texture coordinates.
     long long unused = 0;      ///< Vertices of no triangle.
-    bool closed = false;       ///< Each edge has two faces, wound alike: see `volume`.
-    double volume = 0; ///< Signed, of a closed mesh; below 0 if it is inside out.
+    bool closed = false; ///< Whether each edge has two faces, which are wound alike.
+    double volume = 0; ///< Signed volume of a closed mesh; below 0 if it is inside out.
 };
 
 /// The problems of a mesh file.
 struct MeshReport {
-    /// What the numbers of places in the counts refer to: a line of a text, an element
-    /// of a PLY file, a triangle of an STL or glTF file; counted from 1.
+    /// The unit of the places in `counts`: a line of a text, an element of a PLY file,
+    /// or a triangle of an STL or glTF file.
     const char* unit = "line";
-    std::array<MeshCount, detail::mesh_troubles> counts{}; ///< By MeshTrouble.
-    /// One sentence per problem of a material file or a picture, with file and line.
+    std::array<MeshCount, detail::mesh_troubles> counts{}; ///< Indexed by MeshTrouble.
+    /// One sentence for each further problem, for example of a material file.
     std::vector<std::string> notes{};
-    MeshContent content{}; ///< All that was read.
+    MeshContent content{}; ///< Counts of all that was read.
 
-    /// Counts occurrences, the first of them at this line.
+    /// Adds occurrences of a problem, the first of them at this line.
     void add(MeshTrouble trouble, long long line, long long count = 1) {
         MeshCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count == 0 || line < at.line) at.line = line;
@@ -95,8 +97,9 @@ struct MeshReport {
     }
 };
 
-/// A report as text, one line per problem: "line 12: 3 faces have no area; ...".
-/// \return Lines that end with a line feed; empty without problems.
+/// A report as text, one line per problem, such as "line 12: 3 faces have no area;
+/// ...".
+/// \return Lines that end with a line feed; empty if there are no problems.
 [[nodiscard]] inline std::string to_text(const MeshReport& report) {
     constexpr std::array<const char*, detail::mesh_troubles> words{
         "vertices have coordinates that are not finite numbers; their faces are left "
@@ -142,17 +145,17 @@ struct MeshReport {
 
 namespace detail {
 
-// Counts the edges of a mesh that a closed surface does not have, with the lines of
-// its triangles, and whether a closed one is inside out. Vertices at the same place
-// count as one. Expected O(n).
+// Counts the edges that do not belong to exactly two faces, or whose faces are wound in
+// opposite directions. Tests whether a closed mesh is inside out. Vertices at the same
+// position count as one. `lines` are the lines of the triangles. Expected O(n).
 template <std::floating_point T>
 void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lines,
                  MeshReport& report) {
     const auto place = first_equal_points(data.positions);
-    // The edges of a place, to places of higher numbers.
+    // An edge from one position to a position with a higher number.
     struct Edge {
         std::uint32_t high, triangle;
-        bool forwards; // as its triangle has it
+        bool forwards; // if its triangle goes from low to high
     };
     const auto each_edge = [&](auto use) { // use(low, edge)
         for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
@@ -162,7 +165,8 @@ void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lin
                 if (a != b) use(std::min(a, b), Edge{std::max(a, b), i, a < b});
             }
     };
-    std::vector<std::uint32_t> end(place.size() + 1, 0); // of each one's edges
+    std::vector<std::uint32_t> end(place.size() + 1, 0); // end of the edges of each
+                                                         // position
     each_edge([&](std::uint32_t low, const Edge&) { ++end[low + 1]; });
     for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
     std::vector<Edge> edges(end.back());
@@ -190,7 +194,7 @@ void count_edges(const MeshDataT<T>& data, const std::vector<std::uint32_t>& lin
     }
     report.content.closed = closed;
     if (!closed) return;
-    double volume = 0; // six times, from a corner of the mesh
+    double volume = 0; // times six, relative to a corner
     const glm::dvec3 from(data.positions[data.triangles[0][0]]);
     for (const auto& [a, b, c] : data.triangles)
         volume += glm::dot(glm::dvec3(data.positions[a]) - from,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/nearest_word.hpp
-/// \brief "Did you mean ...": the known word that is most like an unknown one.
+/// \brief Finds the known word that is most like an unknown word, for "Did you mean
+/// ...".
 
 #include <algorithm>
 #include <cstddef>
@@ -12,12 +13,12 @@
 namespace ljus {
 
 /// \defgroup nearest_word Did you mean
-/// \brief What a message proposes for a wrong word.
+/// \brief The word that a message proposes in place of a wrong one.
 /// \{
 
-/// The number of letters to insert, remove, replace or exchange with the next one, to
-/// turn one word into another; no letter is touched twice. Capitals count as small
-/// letters.
+/// The smallest number of edits that turn one word into another. An edit inserts,
+/// removes or replaces a letter, or exchanges two neighbouring letters; no letter is
+/// edited twice. Capital and small letters count as equal.
 /// \cost O(n m) for n and m letters.
 [[nodiscard]] inline std::size_t edit_distance(std::string_view from,
                                                std::string_view to) {
@@ -45,12 +46,12 @@ namespace ljus {
     return last[to.size()];
 }
 
-/// The word of a list that is most like a given one.
-/// \param word   What the user wrote.
-/// \param words  What is known.
-/// \return The nearest word with at most one letter in three wrong, or else one that
-///         contains the given word or lies in it; the first of several, or an empty
-///         text.
+/// The word of a list that is most like a given word.
+/// \param word   The word of the user.
+/// \param words  The known words.
+/// \return The known word with the smallest edit distance, if at most one letter in
+///         three is wrong. Otherwise a known word that contains the given word or is
+///         part of it. Of several words the first; an empty text if there is none.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/pfm.hpp
-/// \brief PFM files: linear radiance in float, exactly.
+/// \brief PFM files, which store linear radiance exactly, in float.
 
 #include <bit>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace ljus {
 
 /// \defgroup pfm PFM
-/// \brief Three lines of text, then the floats, the bottom row first.
+/// \brief A format of three lines of text, followed by the floats, bottom row first.
 /// \{
 
 /// Saves an image as PFM. Every float keeps its bits, even NaN and infinity; a double
@@ -44,10 +44,10 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
 }
 
 /// Loads a PFM file in colour or grey, of either byte order.
-/// \return Its image; values are multiplied by the absolute value of the header's
-///         scale, which save_pfm() sets to 1.
-/// \throws std::runtime_error  with path and reason, if it cannot be read, is not a PFM
-///         file, or is shorter or longer than its header says.
+/// \return The image. Its values are multiplied by the absolute value of the scale in
+///         the header; save_pfm() writes a scale of absolute value 1.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is not
+///         a PFM file, or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_pfm(const std::string& path) {
     detail::ByteReader reader{path,
@@ -61,7 +61,7 @@ template <std::floating_point T = float>
         reader.fail("the third line of its header is not a finite number other than 0");
     reader.require_pixels(width, height);
 
-    // Compared before memory is allocated for the pixels.
+    // The size is checked before memory is allocated for the pixels.
     const std::size_t channels = kind == "PF" ? 3 : 1;
     const std::size_t expected = 4 * channels * static_cast<std::size_t>(width) *
                                  static_cast<std::size_t>(height);

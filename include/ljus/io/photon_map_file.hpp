@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/photon_map_file.hpp
-/// \brief Photon maps in files that are searched where they are.
+/// \brief Photon maps in files that can be searched without loading them.
 
 #include <algorithm>
 #include <array>
@@ -28,27 +28,29 @@
 namespace ljus {
 
 /// \defgroup photon_map_file Photon maps in files
-/// \brief A map that is larger than the memory: the system reads what a search needs.
+/// \brief A saved map may be larger than the memory. The operating system reads only
+/// the pages that a search needs.
 ///
-/// The file has the header of \ref binary_file, with the number of photons and a key.
-/// The nodes of the tree, the blocks of points, their numbers and the blocks of records
-/// follow, as they lie in memory, each from a multiple of 64 KiB on. The checksum is
-/// that of the checksums of their pieces, which many threads compute.
+/// A file has the header of \ref binary_file, with the number of photons and a key.
+/// Four arrays follow, as in memory: the nodes of the tree, the blocks of points, the
+/// numbers of the points, and the blocks of records. Each array begins at a multiple of
+/// 64 KiB. The checksum is computed from the checksums of pieces of 1 MiB, so that
+/// several threads can work on it.
 /// \{
 
 namespace detail {
 
 inline constexpr FileFormat photon_map_format{"ljus photon map\n", 1};
 
-// The arrays begin at multiples of this: pages are not larger on any system.
+// Arrays begin at multiples of this size, in bytes. No system has larger pages.
 inline constexpr std::size_t map_alignment = 1 << 16;
 
 inline constexpr std::size_t checksum_piece = 1 << 20;
 
 // The sizes of the four arrays of a map.
 struct MapSizes {
-    std::size_t nodes = 0;  // of the tree
-    std::size_t blocks = 0; // of points, and of records
+    std::size_t nodes = 0;  // nodes of the tree
+    std::size_t blocks = 0; // blocks of points, and of records
     std::size_t points = 0;
 
     [[nodiscard]] static MapSizes of(std::uint32_t points) noexcept {
@@ -56,12 +58,12 @@ struct MapSizes {
         return {shape.first[std::size_t(shape.levels)], std::size_t(shape.blocks),
                 points};
     }
-    // In the order of the file.
+    // The sizes of the arrays in bytes, in the order of the file.
     [[nodiscard]] std::array<std::size_t, 4> bytes() const noexcept {
         return {nodes * sizeof(KdTree8NodeT<float>), blocks * sizeof(Lanes3T<float>),
                 points * sizeof(std::uint32_t), blocks * sizeof(RecordBlockT<float>)};
     }
-    // Where the arrays begin, then the end of the file.
+    // The positions at which the arrays begin, and the end of the file.
     [[nodiscard]] std::array<std::size_t, 5> places() const noexcept {
         std::array<std::size_t, 5> place{map_alignment};
         for (std::size_t i = 0; i < 4; ++i) {
@@ -89,7 +91,7 @@ arrays_of(const PhotonMap& map) noexcept {
             raw(map.records.stored())};
 }
 
-// The checksum of a map, of the header without the checksum itself first.
+// The checksum of a map. It includes the header, except the checksum itself.
 [[nodiscard]] inline std::uint64_t map_checksum(const Bytes& front,
                                                 const PhotonMap& map, int threads) {
     std::uint64_t all = checksum(front);
@@ -114,8 +116,8 @@ arrays_of(const PhotonMap& map) noexcept {
     return all;
 }
 
-// Whether eight photons, or those of them that the map has, are as make_photon_map()
-// takes them, and the places behind the last one as it leaves them.
+// Whether the photons of a block are valid for make_photon_map(), and whether unused
+// places after the last photon are marked by NaN.
 [[nodiscard]] inline bool is_whole_block(const PhotonMap& map, std::size_t block) {
     const Lanes3T<float>& points = map.tree.blocks()[block];
     const RecordBlockT<float>& records = map.records.blocks()[block];
@@ -134,7 +136,7 @@ arrays_of(const PhotonMap& map) noexcept {
     return true;
 }
 
-// Refuses a map whose bytes or photons are not right.
+// Refuses a map if the checksum is wrong or a photon is not valid.
 inline void check_map(const FileReader& file, const PhotonMap& map, int threads) {
     if (number_at<std::uint64_t>(file.bytes, checksum_place) !=
         map_checksum(file.bytes, map, threads))
@@ -149,7 +151,7 @@ inline void check_map(const FileReader& file, const PhotonMap& map, int threads)
                   {.threads = threads});
 }
 
-// Numbers lie in the file as they lie in memory.
+// Throws on systems that cannot map these files into memory.
 inline void require_map_files(const std::string& path) {
     if constexpr (std::endian::native != std::endian::little)
         fail_to_read(path, "photon maps in files need a processor that stores a "
@@ -161,7 +163,7 @@ inline void require_map_files(const std::string& path) {
 
 #if __has_include(<sys/mman.h>)
 
-// A file that is closed when it has been mapped.
+// A file that can be mapped into memory. The mapping remains when the file is closed.
 class MappableFile {
 public:
     MappableFile(const std::string& path) : path_(path) {
@@ -173,14 +175,14 @@ public:
     MappableFile& operator=(const MappableFile&) = delete;
     ~MappableFile() { ::close(file_); }
 
-    // Its size in bytes.
+    // The size of the file in bytes.
     [[nodiscard]] std::size_t size() const {
         struct ::stat status = {};
         if (::fstat(file_, &status) != 0) fail_to_read(path_, std::strerror(errno));
         if (!S_ISREG(status.st_mode)) fail_to_read(path_, "it is not a file");
         return static_cast<std::size_t>(status.st_size);
     }
-    // Its first bytes.
+    // The first `count` bytes of the file.
     [[nodiscard]] Bytes front(std::size_t count) const {
         Bytes bytes(count);
         const ::ssize_t got = ::pread(file_, bytes.data(), count, 0);
@@ -188,7 +190,8 @@ public:
         bytes.resize(static_cast<std::size_t>(got));
         return bytes;
     }
-    // Some of its elements, from a multiple of map_alignment on.
+    // Maps `count` elements of the file, from the position `place` on, which is a
+    // multiple of map_alignment.
     template <typename Element>
     [[nodiscard]] StoredArray<Element> map(std::size_t place, std::size_t count) const {
         if (count == 0) return {};
@@ -213,9 +216,10 @@ private:
 /// Saves a photon map; see save_file().
 /// \param path  The file.
 /// \param map   The map.
-/// \param key   The caller's, to tell maps apart: a hash of the scene and the settings.
+/// \param key   A number by which the caller tells maps apart, such as a hash of the
+///              scene and the settings.
 /// \throws std::runtime_error  as save_file().
-/// \cost 50 bytes per photon in the file; no memory.
+/// \cost 50 bytes per photon in the file; no further memory.
 inline void save_photon_map(const std::string& path, const PhotonMap& map,
                             std::uint64_t key = 0) {
     detail::require_map_files(path);
@@ -239,20 +243,21 @@ inline void save_photon_map(const std::string& path, const PhotonMap& map,
 
 /// The settings of open_photon_map().
 struct PhotonMapFileSettings {
-    std::uint64_t key = 0; ///< The key that the file must have.
-    bool check = true;     ///< Whether all of it is read and checked at once. Without,
-                           ///< damage is not noticed.
-    bool single_pages = false; ///< Whether a search reads the pages that it needs and
-                               ///< no others, for a map larger than the memory.
-    int threads = 0;           ///< For the check; as in ParallelSettings.
+    std::uint64_t key = 0;     ///< The key that the file must have.
+    bool check = true;         ///< Whether the whole file is read and checked at once.
+                               ///< Otherwise damage is not noticed.
+    bool single_pages = false; ///< Whether a search reads only the pages that it needs;
+                               ///< for a map larger than the memory.
+    int threads = 0;           ///< Threads for the check, as in ParallelSettings.
 };
 
-/// Opens a photon map in a file. It is mapped, not read: a search reads the pages that
-/// it needs, and the system forgets them when memory is short. save_photon_map() may
-/// replace the file meanwhile; a program that writes into it or shortens it must not
-/// run.
-/// \return The map, equal to the saved one in every bit; the file stays mapped as long
-///         as the map, or what it is moved to, exists. A copy of it is in memory.
+/// Opens a photon map in a file. The file is mapped into memory: a search reads the
+/// pages that it needs, and the system drops pages when memory is short. Meanwhile
+/// save_photon_map() may replace the file, but no program may write into it or shorten
+/// it.
+/// \return The map, equal to the saved one in every bit. The file stays mapped as long
+///         as this map exists, or a map to which it is moved. A copy of the map is in
+///         memory.
 /// \throws std::runtime_error  "cannot read 'a.photons': it is damaged ..."; also on a
 ///         system without mapped files.
 [[nodiscard]] inline PhotonMap
@@ -285,7 +290,7 @@ open_photon_map(const std::string& path, const PhotonMapFileSettings& settings =
     if (settings.single_pages)
         for (const auto& array : detail::arrays_of(map))
             ::madvise(const_cast<unsigned char*>(array.data()), array.size(),
-                      MADV_RANDOM); // advice: if it fails, more is read
+                      MADV_RANDOM); // if it fails, more is read
 #endif
     return map;
 }

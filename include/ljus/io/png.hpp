@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/png.hpp
-/// \brief Pictures for a screen: 8-bit PNG files, sRGB.
+/// \brief Saves pictures for a screen, as PNG files in sRGB with 8 bits per channel.
 ///
 /// stb_image_write encodes them. This header compiles its implementation for itself,
 /// hidden from other files. A program with its own implementation in the *same* file
@@ -65,12 +65,12 @@
 namespace ljus {
 
 /// \defgroup png PNG
-/// \brief A picture for the eye; HDR and PFM files keep the radiance.
+/// \brief PNG files hold a picture for the screen. HDR and PFM files keep the radiance.
 /// \{
 
 /// The settings of save_png().
 struct PngSettings {
-    double exposure = 0.0; ///< In stops: +1 doubles the light. Finite.
+    double exposure = 0.0; ///< Exposure in stops, finite; +1 doubles the light.
 };
 
 /// Encodes an image as PNG: 8 bits per channel, sRGB. NaN and negative channels become

@@ -9,20 +9,20 @@
 namespace ljus {
 
 /// \defgroup progressive_file Checkpoints
-/// \brief The whole state of a progressive picture in a file that survives a kill.
+/// \brief Saves the state of a progressive picture, so that a killed program can be
+/// resumed.
 ///
-/// 16 letters that name the format; version, side of the blocks, width, height and a
-/// checksum; the numbers of the state, exact to the last bit, lowest byte first; and
-/// the length of the text that says what the picture is, and this text. save_file()
-/// replaces the older file at once, so that one of the two always exists if the program
-/// is killed. After a loss of power that depends on the file system.
+/// A file has the header of \ref binary_file, with the side of the blocks, width and
+/// height. Then follow the numbers of the state, the length of the text that describes
+/// the picture, and this text. save_file() replaces the older file in one step, so that
+/// the older or the newer file exists even if the program is killed.
 /// \{
 
 namespace detail {
 
 inline constexpr FileFormat checkpoint_format{"ljus progressive", 2};
 
-// Calls `each` with every number behind the header, in the file's order.
+// Calls `each` with every number that follows the header, in the order of the file.
 template <typename State, typename Each>
 void each_checkpoint_number(State& state, Each each) {
     each(state.alpha);
@@ -34,7 +34,8 @@ void each_checkpoint_number(State& state, Each each) {
             for (int channel = 0; channel < 3; ++channel) each(color[channel]);
 }
 
-// A state with memory for the numbers of a file, by the size in its header.
+// A state with memory for the numbers of a file. The header gives the size of the
+// picture.
 [[nodiscard]] inline ProgressiveState empty_state_of(FileReader& file) {
     const auto side = file.take<std::uint32_t>();
     const auto width = file.take<std::uint32_t>();
@@ -61,7 +62,7 @@ void each_checkpoint_number(State& state, Each each) {
     return state;
 }
 
-// Rejects numbers that no pass can have made, though the checksum is right.
+// Refuses numbers that no pass can have made.
 inline void require_sense(const FileReader& file, const ProgressiveState& state) {
     if (state.passes < 1 || !(state.alpha > 0 && state.alpha <= 1) ||
         !(state.shrink > 0 && state.shrink <= 1))

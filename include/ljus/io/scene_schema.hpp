@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/scene_schema.hpp
-/// \brief What a scene file may contain, as a JSON schema.
+/// \brief A JSON schema of scene files.
 
 #include <cmath>
 #include <string>
@@ -15,18 +15,19 @@
 namespace ljus {
 
 /// \defgroup scene_schema The schema of scene files
-/// \brief Optional (nlohmann-json): the tables by which load_json() reads, in the form
-/// that editors read. Page: \ref ch_scene_files.
+/// \brief Optional (nlohmann-json): the rules of load_json() in a form that editors
+/// understand. Page: \ref ch_scene_files.
 /// \{
 
 namespace detail {
 
-/// Tables of one kind: one of them is chosen by `type`, or there is only one.
+/// The tables of one kind of object. The member `type` chooses a table, unless there is
+/// only one.
 struct JsonGroup {
-    std::string_view name;           // in the schema
-    std::string_view heading, text;  // on the page
+    std::string_view name;           // name in the schema
+    std::string_view heading, text;  // words on the page of the book
     JsonMembers shared{};            // members of all tables
-    std::vector<JsonTable> tables{}; // without `type`, if there is only one
+    std::vector<JsonTable> tables{}; // a single one has no `type`
 };
 
 [[nodiscard]] inline std::vector<JsonGroup> scene_groups() {
@@ -188,7 +189,7 @@ struct JsonGroup {
     return schema;
 }
 
-/// The schema of a group: that of one of its tables.
+/// The schema of a group: an object fits if it fits one of the tables.
 [[nodiscard]] inline nlohmann::ordered_json group_schema(const JsonGroup& group) {
     if (group.tables.size() == 1) return object_schema(group.tables[0], group.shared);
     auto choices = nlohmann::ordered_json::array();
@@ -199,7 +200,7 @@ struct JsonGroup {
 
 } // namespace detail
 
-/// The JSON schema (draft 7) of scene files, for editors and checkers. It follows from
+/// The JSON schema (draft 7) of scene files, for editors and checkers. It is made from
 /// the tables of the reader.
 /// \return JSON, indented.
 [[nodiscard]] inline std::string scene_schema() {

@@ -15,42 +15,53 @@
 namespace ljus {
 
 /// \defgroup adaptive Adaptive sampling
-/// \brief Discussion: "priority-driven ray tracing"; section 4.3: how many rays?
-/// Chapter: \ref ch_recursion_depth.
+/// \brief The report proposes "priority-driven ray tracing" in its discussion, and asks
+/// in Section 4.3 how many rays a pixel needs. Chapter: \ref ch_recursion_depth.
 ///
 /// Every pixel gets a few rays, which estimate the variance there; the remaining rays
 /// go to the pixels where they reduce the error most. The mean number of rays per pixel
 /// is at most RenderSettings::samples.
 ///
-///     // 1 ray; up to 9 more where the rays of the pixels around differ, all of them
-///     // from a relative standard deviation of 0.3 on
+///     // 1 ray per pixel, and up to 9 more if the rays of neighbouring pixels differ:
+///     // all 9 if their relative standard deviation is at least 0.3
 ///     render_adaptive(mapper, camera, {.samples = 10},
 ///                     {.first = 1, .more = 9, .disagreement = 0.3});
 ///     // up to 1000 rays per pixel on average, until the relMSE is 0.01
 ///     render_adaptive(mapper, camera, {.samples = 1000}, {.target = 0.01});
 /// \{
 
-/// How rays are allocated to pixels. The bias that `two_stage` avoids: \cite kirk1991.
+/// How rays are allocated to pixels. The bias that `two_stage` avoids is described in
+/// \cite kirk1991.
 struct AdaptiveSettings {
-    int first = 16; ///< Rays in every pixel, at least 2; 1 with `disagreement` alone.
-    int more = 16;  ///< Rays in a batch, at least 1; with `disagreement` the most.
+    int first = 16; ///< First rays of every pixel: at least 2, or at least 1 with
+                    ///< `disagreement` and no target.
+    /// Rays per pixel in a batch, which follows the first rays: at least 1, or 2 with
+    /// `two_stage`. With `disagreement`, the largest number of rays per pixel in a
+    /// batch.
+    int more = 16;
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
-    int block = 1;     ///< Side of the square blocks that share an estimate, in pixels.
-    double target = 0; ///< The relMSE at which it stops; 0: none.
-    /// Above 0: each block gets one batch, whose rays are in proportion to the relative
-    /// standard deviation of the first rays of the eight blocks around it. A deviation
-    /// of this number, or a larger one, brings `more` rays.
+    /// Side of a square block, in pixels. The pixels of a block share one estimate of
+    /// variance and get the same number of rays.
+    int block = 1;
+    double target = 0; ///< Rendering stops when the estimated relMSE is at most this;
+                       ///< 0: no target.
+    /// If above 0, each block gets one batch after its first rays. The number of rays
+    /// in the batch is proportional to the relative standard deviation of the first
+    /// rays of the eight blocks around it. Where that deviation is at least this
+    /// number, the batch has `more` rays.
     double disagreement = 0;
-    double epsilon = 0.01;  ///< Added to the squared mean, as in rel_mse().
-    bool two_stage = false; ///< The first rays only allocate the others and are then
-                            ///< discarded: no bias. Not with `disagreement`, which
-                            ///< has none.
+    double epsilon = 0.01; ///< Added to the squared mean that divides a variance, as
+                           ///< in rel_mse().
+    /// Whether the first rays only decide how many rays follow and are then discarded,
+    /// which removes the bias. Not allowed with `disagreement`, which has no bias.
+    bool two_stage = false;
 };
 
-/// Refuses a rule that gives no picture.
-/// \param rule     The rule.
+/// Checks the settings of adaptive sampling.
+/// \param rule     The settings.
 /// \param samples  Largest mean number of rays per pixel.
-/// \throws std::invalid_argument  with name and value.
+/// \throws std::invalid_argument  if a setting is out of range, with its name and
+///         value.
 inline void check(const AdaptiveSettings& rule, int samples) {
     const bool by_others = rule.disagreement > 0 && rule.target == 0;
     require_at_least("first", rule.first, by_others ? 1 : 2);
@@ -74,32 +85,33 @@ template <std::floating_point T>
 struct AdaptiveT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
     ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
-    double estimate = 0;  ///< The estimated relMSE, without bias.
+    double estimate = 0;  ///< An estimate of the relMSE, without bias.
     bool reached = false; ///< Whether the estimate is at most the target.
     Counts counts{};      ///< Cost of the picture.
-    bool complete = true; ///< False if the progress callback stopped it.
+    bool complete = true; ///< False if the progress callback stopped the work.
 };
 
 namespace detail {
 
 /// A square of pixels; all of them have the same number of rays.
 struct AdaptiveBlock {
-    int x = 0, y = 0;          ///< Its upper left pixel.
+    int x = 0, y = 0;          ///< Column and row of its upper left pixel.
     int right = 0, bottom = 0; ///< One past its last column and row.
-    int rays = 0;              ///< Per pixel, without discarded ones.
-    int batches = 0;           ///< Batches traced so far; the first rays are one.
+    int rays = 0;              ///< Rays per pixel so far, without discarded ones.
+    int batches = 0;           ///< Batches traced so far, including the first rays.
     int wanted = 1;            ///< Batches to trace in this round.
     int more = 0;              ///< Rays per pixel in each batch but the first.
-    double variance = 0;       ///< See relative_variance().
-    Rgb sum{0};                ///< Sum of all its first rays.
-    Rgb squares{0};            ///< Sum of their squares.
+    double variance = 0; ///< Relative variance of the rays; see relative_variance().
+    Rgb sum{0};          ///< Sum of the radiance of its first rays.
+    Rgb squares{0};      ///< Sum of the squared radiance of its first rays.
 
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);
     }
 };
 
-/// Some rows of the blocks of a picture, from the top left.
+/// The blocks of a picture that lie in the rows of blocks `first` to `last` - 1, row by
+/// row. A block is `size` pixels wide and high.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
@@ -125,7 +137,8 @@ struct RowSums {
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return pixel_index(width, x, y - top);
     }
-    /// Drops the first blocks, and their rows.
+    /// Removes the first `count` blocks, which fill whole rows, and the sums of their
+    /// pixels.
     void drop(std::vector<AdaptiveBlock>& blocks, std::size_t count) {
         if (count == 0) return;
         const int rows = blocks[count - 1].bottom - top;
@@ -149,10 +162,10 @@ struct RowSums {
 
 /// The relative variance of the rays of a block.
 ///
-/// It is relative to the mean of the block, which is less noisy than that of a pixel.
-/// The rays of a pixel are assumed to be independent; because they are stratified, the
-/// true variance of their mean is slightly smaller.
-/// \param block    At least 2 rays per pixel.
+/// The variance is divided by the squared mean of the block, which is less noisy than
+/// that of a pixel. The rays of a pixel are assumed to be independent; because they are
+/// stratified, the true variance of their mean is slightly smaller.
+/// \param block    A block with at least 2 rays per pixel.
 /// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
 ///         and pixels.
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
@@ -169,8 +182,8 @@ struct RowSums {
     return std::fmax((relative.x + relative.y + relative.z) / 3, 0.0); // not NaN
 }
 
-/// Sets the statistics from which plan_round() allocates rays: the variance of a block,
-/// or with `disagreement` the sums of its first rays, for the blocks around it.
+/// Sets the statistics of a block from which plan_round() allocates rays. These are the
+/// variance or, with `disagreement`, the sums of the first rays.
 inline void set_statistics(AdaptiveBlock& block, const RowSums& sums,
                            const AdaptiveSettings& rule) {
     if (rule.disagreement == 0) {
@@ -192,16 +205,19 @@ struct RayShare {
     double rays = 1;     ///< Rays per pixel so far.
 };
 
-/// The optimal number of rays per pixel for each block: the mean of variance / rays
-/// over all pixels reaches a target with the fewest rays, or is minimal for the limit.
+/// The optimal number of rays per pixel for each block. With a target, the mean of
+/// variance / rays over all pixels reaches the target with the fewest rays. Without a
+/// target, or if the limit does not allow enough rays, that mean is as small as the
+/// limit allows.
 ///
-/// With w pixels, variance v and n rays per pixel in a block, sum w v / n is minimised
-/// for a given sum w n. By Lagrange multipliers v / n^2 is constant: n is proportional
-/// to the square root of the variance \cite neyman1934. A block that already has more
-/// rays keeps them, and the remaining rays are distributed over the other blocks.
-/// \param target  The wanted mean of variance / rays; 0: the minimum.
+/// A block has w pixels, variance v and n rays per pixel. The sum of w v / n over all
+/// blocks is minimised for a given sum of w n. By Lagrange multipliers, v / n^2 is the
+/// same for all blocks, so that n is proportional to the square root of the variance
+/// \cite neyman1934. A block that already has more rays keeps them, and the remaining
+/// rays are distributed over the other blocks.
+/// \param target  The wanted mean of variance / rays; 0: no target.
 /// \param limit   Largest mean number of rays per pixel.
-/// \return Rays per pixel for each block, at least those that it has.
+/// \return Rays per pixel for each block, never fewer than the block already has.
 [[nodiscard]] inline std::vector<double> ray_shares(const std::vector<RayShare>& parts,
                                                     double target, double limit) {
     std::vector<double> wanted(parts.size());
@@ -217,7 +233,8 @@ struct RayShare {
             rays += part.pixels * part.rays;
         }
         // [scale]
-        // n = scale * sqrt(v), for the target if the limit allows it.
+        // n = scale * sqrt(v). The scale reaches the target, or else uses all rays of
+        // the limit.
         const double spare = std::fmax(limit * pixels - rays, 0.0);
         const double allowed = target * pixels - error;
         double scale = roots > 0 ? spare / roots : 0.0;
@@ -235,12 +252,12 @@ struct RayShare {
     return wanted;
 }
 
-/// The relative variance of the first rays of the blocks around each block, without its
-/// own; infinity for a block with fewer than two such rays.
+/// Sets the variance of each block to the relative variance of the first rays of the
+/// eight blocks around it; to infinity if these have fewer than two rays.
 ///
-/// It contains the differences between pixels: an edge or a shadow's border is noticed
-/// with one ray per pixel.
-/// \param parts   Their variances are set.
+/// This variance includes the differences between pixels. An edge or the border of a
+/// shadow is therefore noticed even with one ray per pixel.
+/// \param parts   The statistics of the blocks; receives the variances.
 /// \param blocks  All blocks of a picture, row by row.
 /// \param rule    Its `first` and `epsilon` are used.
 inline void set_variances_around(std::vector<RayShare>& parts,
@@ -274,7 +291,7 @@ inline void set_variances_around(std::vector<RayShare>& parts,
 }
 
 /// Plans the number of batches of each block in the next round.
-/// \param blocks  Their `wanted` is set.
+/// \param blocks  All blocks; the plan is stored in their `wanted` and `more`.
 /// \param limit   Largest mean number of rays per pixel, without discarded ones.
 /// \return Whether any block gets a batch.
 inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSettings& rule,
@@ -282,7 +299,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     std::vector<RayShare> parts;
     double spare = 0; // rays
     for (const AdaptiveBlock& block : blocks) {
-        // After the first stage each block starts again with one batch.
+        // In two stages, each block starts the second stage with one batch.
         const double have = rule.two_stage ? rule.more : block.rays;
         parts.push_back({block.pixels(), block.variance, have});
         spare += block.pixels() * (limit - have);
@@ -296,20 +313,22 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
     });
-    const int begun = rule.two_stage ? 1 : 0; // the batch that each block has
+    const int begun = rule.two_stage ? 1 : 0; // the batch that begins the second stage
     const int most_batches = 1 + rule.batches - begun;
     bool any = false;
     for (const std::size_t i : order) {
         double batches = 0;
         blocks[i].more = rule.more;
         if (rule.disagreement > 0) {
-            // As in ray_shares(), rays in proportion to the root of the variance.
+            // As in ray_shares(), rays are proportional to the square root of the
+            // variance.
             blocks[i].variance = parts[i].variance;
             const double part = std::sqrt(parts[i].variance) / rule.disagreement;
             blocks[i].more = static_cast<int>(rule.more * std::min(part, 1.0));
             if (blocks[i].more > 0) batches = 1;
         } else {
-            // At most doubled, because an estimate from few rays is unreliable.
+            // A round at most doubles the rays of a block, because an estimate from few
+            // rays is unreliable.
             const double most = rule.two_stage ? shares[i] : 2 * parts[i].rays;
             const double lacking = std::min(shares[i], most) - parts[i].rays;
             batches = std::ceil(lacking / rule.more - 1e-6);
@@ -352,7 +371,8 @@ void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& render
     }
 }
 
-/// Traces the batches of some blocks. Delayed queries of all their samples are batched.
+/// Traces the batches of some blocks. The delayed queries of their samples are answered
+/// together.
 /// \param blocks    The blocks; their batches and rays are counted.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
@@ -367,8 +387,9 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
     return cost;
 }
 
-/// Adds the estimated squared relative errors of the pixels of some blocks, without
-/// bias; of those with a single ray by the rays around them, which is too much.
+/// Adds an estimate of the squared relative error of each pixel of some blocks to
+/// `error`. The estimate has no bias, except for a pixel with a single ray: there the
+/// variance is that of the rays in the blocks around it, which is too large.
 inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
                        const RowSums& sums, double epsilon) {
     for (const AdaptiveBlock& block : blocks)
@@ -394,16 +415,17 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
             }
 }
 
-/// The number of rows of blocks that are finished before the next ones begin, to save
-/// memory. If the blocks around decide, and there are rays for each of them, only
-/// the blocks beside it matter; otherwise all rows are one band.
+/// The number of rows of blocks in a band. Each band is finished before the next one
+/// begins, which saves memory. With `disagreement`, no target and enough samples, a
+/// block depends only on the blocks around it, so that a band may be short. In all
+/// other cases one band contains all rows.
 [[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
                                       const AdaptiveSettings& rule) noexcept {
     const int all = static_cast<int>(block_count(picture.height, rule.block));
     if (rule.disagreement == 0 || rule.target > 0 ||
         picture.samples - rule.first < rule.more)
         return all;
-    // Enough for each thread that none waits long for the last one of a band.
+    // Each thread has so many pixels that it does not wait long at the end of a band.
     const int threads = picture.threads == 0 ? max_threads() : picture.threads;
     const long long pixels = 4096LL * std::max(threads, 4);
     const long long row = static_cast<long long>(picture.width) * rule.block;
@@ -422,15 +444,17 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 /// bias if `samples` is at least `first` + `more`.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera.
-/// \param picture   Size, seed, threads; `samples` is the limit for the mean.
+/// \param picture   Size, seed, threads; `samples` is the largest mean number of rays
+///                  per pixel.
 /// \param rule      How rays are allocated.
-/// \return The picture and its estimate, the same for any number of threads. A sample
-///         that is not finite is left out and counted.
-/// \throws std::invalid_argument  as render(), or for a setting out of range, or if
+/// \return The picture and the estimate of its error, the same for any number of
+///         threads. A sample that is not finite is left out and counted.
+/// \throws std::invalid_argument  as render(), or if a setting is out of range, or if
 ///         there are fewer samples than first rays.
-/// \cost The time of the rays. The result takes 24 bytes per pixel in float. Meanwhile
-///       each pixel of the picture takes about 200 bytes more. With `disagreement`, no
-///       target and enough samples, only 4096 pixels per thread do, but at least 16384.
+/// \cost The time of the rays. The result takes 24 bytes per pixel in float. During
+///       rendering, about 200 bytes more are needed per pixel. With `disagreement`, no
+///       target and enough samples, they are needed only for 4096 pixels per thread,
+///       but at least for 16384 pixels.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -446,7 +470,8 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
     const double allowed = double(picture.samples) * pixels;
     double traced = 0; // rays so far
 
-    // The rows in work: those of a band and, above and below it, those that decide.
+    // The blocks of a band, and of one row above and below it: their first rays decide
+    // too.
     std::vector<detail::AdaptiveBlock> blocks;
     detail::RowSums sums{.width = picture.width};
 
@@ -493,8 +518,8 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
     const auto columns = std::size_t(detail::block_count(picture.width, rule.block));
     const int all = int(detail::block_count(picture.height, rule.block));
     const int band = detail::rows_in_band(picture, rule);
-    const int around = band < all ? 1 : 0; // rows beside it that decide
-    const auto estimate = [&] {            // if all rows are in work
+    const int around = band < all ? 1 : 0; // rows above and below a band
+    const auto estimate = [&] {            // of a band with all rows
         double sum = 0;
         detail::add_errors(sum, blocks, sums, rule.epsilon);
         return sum / pixels;
@@ -517,7 +542,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
         for (int round = 0; round < rounds && result.complete; ++round) {
             if (rule.target > 0 && estimate() <= rule.target && !rule.two_stage) break;
             if (!detail::plan_round(blocks, rule, limit)) break;
-            for (auto& block : blocks) // those beside the band only decide
+            for (auto& block : blocks) // no rays outside the band
                 if (block.y < first * rule.block || block.y >= last * rule.block)
                     block.wanted = 0;
             if (rule.two_stage) {
@@ -525,7 +550,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
                 for (auto& block : blocks) block.rays = 0;
             }
             result.complete = trace_round();
-            if (round + 1 < rounds) update(0); // the next band needs the first ones
+            if (round + 1 < rounds) update(0); // a later band needs the old statistics
         }
         // [rounds]
         const int top = blocks[0].y / rule.block;
@@ -535,7 +560,7 @@ render_adaptive(const R& renderer, const C& camera, const RenderSettings& pictur
         detail::set_pixels(result, part, sums, rule.two_stage ? rule.first : 0);
         sums.drop(blocks, columns * std::size_t(std::max(last - around - top, 0)));
     }
-    if (result.complete) // it may have stopped early
+    if (result.complete) // reports the end, even if fewer rays were enough
         (void)picture.progress(static_cast<long long>(allowed),
                                static_cast<long long>(allowed));
     result.estimate = error / pixels;

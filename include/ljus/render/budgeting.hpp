@@ -11,19 +11,21 @@ namespace ljus {
 /// \addtogroup budget
 /// \{
 
-/// PhotonMappingSettings::caustic_budget: `abilities<Budgeting>`.
+/// The ability that PhotonMappingSettings::caustic_budget needs; it is listed as
+/// `abilities<Budgeting>`.
 struct Budgeting {
-    /// No state: the shares are `shares` and `light_shares` in
-    /// PhotonMapper::settings().caustics.
+    /// Budgeting has no state. The mapper keeps the shares in
+    /// PhotonMapper::settings().caustics, as `shares` and `light_shares`.
     template <std::floating_point T>
     struct State {};
 };
 
-/// The shares of caustic photons by light for a budget, measured by pilot_lights().
+/// The share of each light in the caustic photons, measured by pilot_lights().
 /// \param world     The closed scene.
 /// \param settings  The budget and the photons.
-/// \return As PhotonPassSettings::light_shares; those in the settings if nothing is
-///         measured, or if shares are given.
+/// \return Shares as in PhotonPassSettings::light_shares. If the settings contain
+///         shares, or ask for no measurement, their `light_shares` are returned
+///         unchanged.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
@@ -39,11 +41,13 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
     return pilot_lights(world, settings.caustics);
 }
 
-/// The shares of caustic photons for a budget, estimated by a pilot pass.
+/// The share of each mirror and each glass object in the caustic photons, estimated by
+/// a pilot pass.
 /// \param world     The closed scene.
 /// \param settings  The budget, photons, radii. For CausticBudget::brightness, 20 000
 ///                  photons of a general pass estimate the other light in the scene.
-/// \return As PhotonPassSettings::shares; the shares in the settings, if any.
+/// \return Shares as in PhotonPassSettings::shares. Shares that the settings contain
+///         are returned unchanged.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_shares(const W& world, const PhotonMappingSettings& settings) {

@@ -11,38 +11,40 @@
 namespace ljus {
 
 /// \defgroup distributed_rays Distributed rays
-/// \brief Section 2.1: soft shadows and blurry reflections "by averaging multiple
-/// camera rays per pixel", after Cook, Porter and Carpenter \cite cook1984. Chapter:
-/// \ref ch_distributed_rays.
+/// \brief Soft shadows and blurry reflections "by averaging multiple camera rays per
+/// pixel" (Section 2.1), after Cook, Porter and Carpenter \cite cook1984. Chapter: \ref
+/// ch_distributed_rays.
 ///
-/// In Heckbert's notation, with G for glossy, it finds the paths L D? (S|G)* E: the
-/// paths of Whitted's tree, with each ray blurred. No matt surface lights another.
+/// In Heckbert's notation, with G for glossy, this renderer finds the paths L D? (S|G)*
+/// E: the paths of Whitted's tree, with each ray blurred. No matt surface lights
+/// another.
 /// \{
 
 /// How rays are distributed.
 struct DistributedSettings {
-    int max_depth = 5; ///< Reflections and refractions in a row; 0 sends no ray on.
+    int max_depth = 5; ///< Largest number of reflections and refractions in a row, at
+                       ///< least 0.
 };
 
 /// A tracer of distributed rays of a world, which must outlive it.
-/// RenderSettings::sampling stratifies its rays over the pixel and over all other
-/// dimensions.
+/// RenderSettings::sampling stratifies the rays of a pixel over its area and over all
+/// other dimensions.
 template <typename W>
 class DistributedTracer {
 public:
     using Stream = StratifiedStream; ///< The random stream that render() passes.
 
     /// \param world     Must outlive the tracer.
-    /// \param settings  The depth.
+    /// \param settings  The largest depth.
     /// \throws std::invalid_argument  if the depth is negative.
     explicit DistributedTracer(WorldRef<W> world,
                                const DistributedSettings& settings = {})
         : world_(world), settings_(settings) {
         require_at_least("max_depth", settings.max_depth, 0);
     }
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// How rays are distributed.
+    /// The settings.
     [[nodiscard]] const DistributedSettings& settings() const noexcept {
         return settings_;
     }
@@ -58,9 +60,10 @@ DistributedTracer(const W&, const DistributedSettings& = {}) -> DistributedTrace
 namespace detail {
 
 /// Direct light at a surface, by one shadow ray to a random point of each light. A
-/// glossy surface sends no shadow ray to a lamp, because its reflected ray finds the
-/// lamp: each path has one owner.
-/// \param context   Two numbers are drawn for each light with a size; counts the rays.
+/// glossy surface sends no shadow ray to a lamp, because the reflected ray finds the
+/// lamp.
+/// \param context   The random stream, from which two numbers are drawn for each light
+///                  with a size; counts the rays.
 /// \return Radiance towards wo.
 /// \report{Section 2.1}
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
@@ -84,9 +87,10 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// mirror, glass or glossy surface, and one shadow ray goes to each light.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
-/// \param context  The random stream of this ray; counts rays, logs terms (gloss as D).
-/// \return Radiance, W/(m^2 sr): an unbiased estimate of the light of such paths, up to
-///         the depth.
+/// \param context  The random stream of this ray; counts rays, and logs terms, with a
+///                 glossy surface as D.
+/// \return Radiance, W/(m^2 sr): an unbiased estimate of the light of the paths in \ref
+///         distributed_rays, up to max_depth.
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
 /// \report{Section 2.1}
 // [radiance]

@@ -17,8 +17,8 @@
 namespace ljus {
 
 /// \defgroup final_gathering Final gathering
-/// \brief The report's discussion: better use of indirect photons \cite jensen1996.
-/// Chapter: \ref ch_final_gathering.
+/// \brief Rays that use photons one bounce away \cite jensen1996 , which the report
+/// proposes in its discussion. Chapter: \ref ch_final_gathering.
 /// \{
 
 namespace detail {
@@ -31,12 +31,14 @@ template <std::floating_point T>
 }
 
 /// The radiance that some lobes of a material reflect or transmit along `wo` if the
-/// incident radiance on each side is the same in all directions: albedo times E / pi.
-/// It is exact for a Lambertian surface; the albedo of any other is estimated by one
+/// incident radiance on each side of the surface is the same in all directions. This
+/// radiance is the albedo times E / pi, where E is the irradiance. For a Lambertian
+/// surface the result is exact; the albedo of any other surface is estimated by one
 /// sample.
 /// \param material    The material of the surface.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
-/// \param irradiance  Called with a direction in the frame: E on its side, W/m^2.
+/// \param irradiance  Called with a direction in the frame; returns E on the side into
+///                    which the direction points, W/m^2.
 /// \param which       The lobes.
 /// \param stream      Three numbers are drawn.
 /// \return W/(m^2 sr).
@@ -54,37 +56,41 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 
 } // namespace detail
 
-/// What gather rays look up where they end.
+/// The data that gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
-    const IrradiancePointsT<T>* points;          ///< The points with known irradiance.
-    const PhotonMapT<T>* general = nullptr;      ///< For surfaces without points.
-    IrradiancePointSettings irradiance{};        ///< How the points were made.
-    const PhotonMapT<T>* caustics = nullptr;     ///< For both, and glossy surfaces.
+    const IrradiancePointsT<T>* points;     ///< The points with known irradiance.
+    const PhotonMapT<T>* general = nullptr; ///< Estimates the irradiance where no
+                                            ///< point is near; may be null.
+    IrradiancePointSettings irradiance{};   ///< How the points were made.
+    /// The caustics map, for such estimates and for glossy surfaces; may be null.
+    const PhotonMapT<T>* caustics = nullptr;
     DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
-    bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the map.
-    bool paths = false; ///< Whether rays go on at diffuse surfaces as at glossy ones,
-                        ///< since the map has too few photons.
+    bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the caustics
+                                   ///< map.
+    bool paths = false; ///< Whether gather rays continue at diffuse surfaces as at
+                        ///< glossy ones, because the general map has too few photons.
 
-    /// Irradiance points alone: where there is none, it is dark.
+    /// Looks up irradiance points alone: where no point is near, the irradiance is 0.
     GatherLookupT(const IrradiancePointsT<T>& known) noexcept : points(&known) {}
 };
 
-/// What a gather ray finds.
+/// The result of a gather ray.
 template <std::floating_point T>
 struct GatherRayT {
     RgbT<T> radiance{T(0)};                          ///< W/(m^2 sr).
-    T distance = std::numeric_limits<T>::infinity(); ///< To the first surface.
+    T distance = std::numeric_limits<T>::infinity(); ///< Distance to the first surface,
+                                                     ///< in scene units.
 };
 
 namespace detail {
 
-/// The irradiance on the side of a surface into which a direction points. Where few
-/// indirect photons land, as in the open or behind a wall that keeps most of them back,
-/// no point may be near; then the irradiance is computed as it is for the points.
+/// The irradiance on the side of a surface into which a direction points. If no
+/// irradiance point is near, the irradiance is estimated from the maps, as it was at
+/// the points. Without a general map it is then 0.
 /// \param lookup   The points and the maps.
-/// \param resting  The surface, detail::at_rest().
-/// \param wi       In its frame.
+/// \param resting  The surface, as detail::at_rest() returns it.
+/// \param wi       The direction, in the frame of the surface.
 /// \param context  A random stream, used if there is no point; counts shadow rays.
 /// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
@@ -102,8 +108,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                lookup.irradiance, lookup.points->disc, context);
 }
 
-/// The radiance that a glossy surface reflects to the viewer, of the light that arrives
-/// straight from lamps or is in the caustics map.
+/// The radiance that a glossy surface reflects to the viewer, but only the light that
+/// arrives straight from lamps or is in the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,
@@ -125,11 +131,12 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// the irradiance there. A lamp that it meets adds nothing, because shadow rays and the
 /// caustics map have counted that light.
 ///
-/// Irradiance does not tell what a glossy surface reflects. If the caustics map has
-/// counted the light that reaches the ray's origin by nearly_specular() surfaces, the
-/// ray is followed through these as through mirrors. At any other glossy surface the
-/// light of lamps and of the caustics map is added, and the ray continues in a sampled
-/// direction. With `lookup.paths` it does so at a diffuse surface as well.
+/// Irradiance does not determine what a glossy surface reflects. At a glossy surface
+/// the light of lamps and of the caustics map is therefore added, and the ray continues
+/// in a sampled direction. With `lookup.paths` the same is done at a diffuse surface.
+/// With `lookup.gloss_as_mirrors`, the caustics map has counted the light that reaches
+/// the ray's origin by nearly_specular() surfaces. The ray then follows these surfaces
+/// as if they were mirrors.
 /// \param world      The closed scene.
 /// \param lookup     Irradiance points, or these with a caustics map.
 /// \param path       The ray, as it leaves a diffuse surface.
@@ -144,7 +151,7 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
     Counts& counts = context.counts;
     // [gather_ray]
     GatherRayT<T> found;
-    bool mirrors = lookup.gloss_as_mirrors; // whether narrow gloss is one to this path
+    bool mirrors = lookup.gloss_as_mirrors; // narrow gloss acts as a mirror
     for (bool first = true; path.depth < max_depth; first = false) {
         ++counts.bounce_rays;
         const auto vertex = next_vertex(world, path, stream);
@@ -185,19 +192,23 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
 /// Irradiance that was gathered at a point.
 template <std::floating_point T>
 struct GatheredT {
-    RgbT<T> irradiance{T(0)};          ///< Indirect light alone; W/m^2.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit, on the side that is seen.
+    RgbT<T> irradiance{T(0)};          ///< Irradiance of indirect light alone, W/m^2.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
-    T spacing = T(0);  ///< Distance to its k-th nearest point; set by the cache.
+    T spacing = T(0);  ///< Distance to the k-th nearest point of the cache with a
+                       ///< similar normal.
 };
 
 /// Gathers the indirect irradiance at a vertex, by stratified rays with a density
-/// proportional to the cosine. At a diffuse lobe that is not Lambertian the rays are
-/// sampled from that lobe, and the result is the uniform irradiance that would be
-/// reflected to `wo` as the actual light is,
+/// proportional to the cosine. At any other diffuse lobe the rays are sampled from the
+/// lobe. The result is then the irradiance of a uniform light under which the lobe,
+/// seen along `wo`, would be as bright as under the actual light:
 ///
 /// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
-///     w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}. \f]
+/// w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}, \f]
+///
+/// where ray i has the direction \f$ \omega_i \f$ with density p and finds the radiance
+/// \f$ L_i \f$, and f is the lobe with \f$ \omega_o \f$ as `wo`.
 ///
 /// \param world     The closed scene.
 /// \param lookup    The data that the rays look up.
@@ -259,7 +270,7 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
     return gathered;
 }
 
-/// The same for a Lambertian surface.
+/// Gathers the indirect irradiance at a vertex of a Lambertian surface.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] GatheredT<T>
 gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,

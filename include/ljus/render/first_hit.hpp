@@ -1,18 +1,19 @@
 #pragma once
 
 /// \file ljus/render/first_hit.hpp
-/// \brief Normals, albedos and distances of what primary rays hit, as pictures.
+/// \brief Pictures of the normals, albedos or distances of the surfaces that primary
+/// rays hit.
 
 #include "ljus/path/continue_path.hpp"
 
 namespace ljus {
 
 /// \defgroup first_hit Pictures of the first hit
-/// \brief Normals, albedos and depths: for a look at a scene, and for denoisers, which
-/// take them beside the rendering. Chapter: \ref ch_first_picture_first_hit.
+/// \brief Pictures of normals, albedos or depths, for a look at a scene or as input of
+/// a denoiser. Chapter: \ref ch_first_picture_first_hit.
 /// \{
 
-/// What a FirstHitRenderer shows of the surface that a primary ray hits.
+/// The quantity that a FirstHitRenderer shows of the first surface on a primary ray.
 enum class FirstHit {
     normals, ///< The shading normal n on the visible side, as (n + 1)/2; no hit: 1/2.
     albedo,  ///< The directional albedo, in [0, 1]; no hit: 0.
@@ -25,15 +26,15 @@ template <typename W>
 class FirstHitRenderer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
-    static constexpr bool carries_fog = true; ///< It shows surfaces, as without fog.
+    static constexpr bool carries_fog = true; ///< Fog is ignored.
 
     /// \param world  Must outlive the renderer.
-    /// \param shown  What a picture shows.
+    /// \param shown  The quantity that a picture shows.
     FirstHitRenderer(WorldRef<W> world, FirstHit shown)
         : world_(world), shown_(shown) {}
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
-    /// What a picture shows.
+    /// The quantity that a picture shows.
     [[nodiscard]] FirstHit shown() const noexcept { return shown_; }
 
 private:
@@ -45,8 +46,9 @@ template <typename W>
 FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
 
 /// One sample of the directional albedo of a vertex: the fraction of the light from
-/// `wo` that its material reflects and transmits in all directions. The weight of
-/// sample() has that mean for every material. For a Lambertian surface it has no noise.
+/// `wo` that its material reflects and transmits in all directions. The mean of the
+/// weight of sample() is this fraction, for every material. For a Lambertian surface it
+/// has no noise.
 /// \param world   The closed scene.
 /// \param vertex  The vertex.
 /// \param stream  Three numbers are drawn.
@@ -56,17 +58,18 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
                                     Stream& stream) {
     const Vec3T<T> u = next_3d<T>(stream);
     return visit_material_at(world, vertex, [&](const auto& material) {
-        // Flux, as radiance has a factor (n_i/n_t)^2 at glass.
+        // Transport of flux, because radiance is scaled by the squared ratio of
+        // refractive indices at glass.
         const auto next = sample(material, vertex.wo, u, Transport::flux, Lobes::all);
         return next ? next->weight : RgbT<T>{T(0)};
     });
 }
 
-/// What a primary ray hits first, as a colour.
-/// \param renderer  The world, and what to show.
+/// The first hit of a primary ray, as a colour.
+/// \param renderer  The world, and the quantity to show.
 /// \param ray       A primary ray.
 /// \param context   The random stream; logs one term.
-/// \return As FirstHit says; not a radiance.
+/// \return A colour as FirstHit describes it, which is not a radiance.
 /// \cost One ray, and one sample() for an albedo.
 /// \report{Section 3.2}
 // [first hit]

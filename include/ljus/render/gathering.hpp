@@ -11,9 +11,10 @@ namespace ljus {
 /// \addtogroup final_gathering
 /// \{
 
-/// IndirectLight::gather and IndirectLight::cache: `abilities<Gathering>`.
+/// The ability that IndirectLight::gather and IndirectLight::cache need; it is listed
+/// as `abilities<Gathering>`.
 struct Gathering {
-    /// Its state.
+    /// The data that a mapper keeps for gathering.
     template <std::floating_point T>
     struct State {
         IrradiancePointsT<T> points{}; ///< The points that gather rays look up.
@@ -21,8 +22,8 @@ struct Gathering {
     };
 };
 
-/// What the gather rays of a mapper look up: its irradiance points, and for glossy
-/// surfaces its caustics map.
+/// The data that the gather rays of a mapper look up: its irradiance points and, for
+/// glossy surfaces, its caustics map.
 /// \param mapper  With Gathering; must outlive the result.
 template <typename Mapper>
 [[nodiscard]] GatherLookupT<typename Mapper::Scalar>
@@ -40,11 +41,13 @@ gather_lookup(const Mapper& mapper) noexcept {
 }
 
 /// The fraction of the disc of a caustics estimate that lies on the surface, if the
-/// caustics map holds the light of glossy surfaces. That light is spread over whole
-/// walls, and without this fraction it would be too dark along each edge.
+/// caustics map holds the light of glossy surfaces. That light covers whole walls. An
+/// estimate that is not divided by this fraction would be too dark along each edge of a
+/// wall.
 /// \param mapper  With Gathering.
-/// \param vertex  The centre of the disc, detail::at_rest().
-/// \return In (0, 1]; 1 for estimates with the k nearest.
+/// \param vertex  The centre of the disc, as detail::at_rest() returns it.
+/// \return In (0, 1]; 1 if the map holds no such light, or for an estimate with the k
+///         nearest photons.
 template <typename Mapper, std::floating_point T>
 [[nodiscard]] T part_of_caustics(const Mapper& mapper, const VertexT<T>& vertex) {
     const DensityEstimateSettings& how = mapper.settings().caustics_estimate;
@@ -53,12 +56,13 @@ template <typename Mapper, std::floating_point T>
                            T(how.radius));
 }
 
-/// The radiance that a surface reflects where a gather ray ends on it, by the
-/// irradiance of the nearest irradiance point on each side.
+/// The radiance that a surface reflects to the viewer, computed from the irradiance of
+/// the nearest irradiance point on each side. It is used where an indirect ray ends.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param context   Three numbers are drawn; the lookup is counted.
+/// \param context   The random stream, from which three numbers are drawn; counts the
+///                  lookup.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,
@@ -72,7 +76,8 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                              context.stream);
 }
 
-/// The indirect radiance that a matt surface reflects, by the irradiance cache.
+/// The indirect radiance that a matt surface reflects to the viewer, computed from the
+/// irradiance cache.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.

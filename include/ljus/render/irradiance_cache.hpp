@@ -21,12 +21,13 @@ namespace ljus {
 /// Points where irradiance was gathered, in a k-d tree.
 template <std::floating_point T>
 struct IrradianceCacheT {
-    KdTree8T<T> tree;                  ///< Their positions.
-    std::vector<GatheredT<T>> records; ///< Their irradiance, in the tree's order.
-    Counts counts{};                   ///< What it cost.
+    KdTree8T<T> tree;                  ///< The positions of the points.
+    std::vector<GatheredT<T>> records; ///< The light gathered at the points, in the
+                                       ///< tree's order.
+    Counts counts{};                   ///< Cost of the gathering.
     bool complete = true; ///< False if the progress callback stopped the gathering.
 
-    /// Whether it has no points.
+    /// Whether the cache has no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
 };
 using IrradianceCache = IrradianceCacheT<float>; ///< IrradianceCacheT in float.
@@ -43,8 +44,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The irradiance between the points of a cache: the mean over the points with a
-/// similar normal, weighted by 1 - d^2/r^2. The search radius r is the `spacing` of the
-/// nearest point.
+/// similar normal, weighted by 1 - d^2/r^2, where d is the distance of a point. The
+/// search radius r is the `spacing` of the nearest point.
 /// \param cache     The points.
 /// \param position  The position to interpolate at.
 /// \param normal    Unit normal, on the side of the viewer.
@@ -107,19 +108,20 @@ namespace detail {
 template <std::floating_point T>
 struct GatheredRowT {
     std::vector<Vec3T<T>> positions;   ///< The points, in world space.
-    std::vector<GatheredT<T>> records; ///< Their gathered light, in this order.
-    Counts counts{};                   ///< What it cost.
+    std::vector<GatheredT<T>> records; ///< The light gathered at the points, in this
+                                       ///< order.
+    Counts counts{};                   ///< Cost of the gathering.
 };
 
-/// Gathers irradiance at the first diffuse surfaces that a camera ray meets: these are
-/// the points of an irradiance cache \cite ward1988 . The ray follows mirrors, and is
-/// split at glass.
+/// Gathers irradiance where a camera ray meets its first diffuse surface. These places
+/// are the points of an irradiance cache \cite ward1988 . The ray follows mirrors and
+/// is split at glass, so that one ray may give several points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
                   RandomStream& stream, GatheredRowT<T>& row) {
-    constexpr std::size_t most = 8; // paths split at glass, as in radiance()
-    constexpr T faint = T(0.01);    // fainter paths gather when they are rendered
+    constexpr std::size_t most = 8; // largest number of paths of a ray
+    constexpr T faint = T(0.01);    // least throughput of a path
     auto context = context_of(stream, row.counts);
     std::vector<PathStateT<T>> ways{camera_path(world, ray, stream)};
     for (std::size_t way = 0; way < ways.size(); ++way) {
@@ -151,7 +153,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
 
 /// Sets the `spacing` of each point of a cache: the distance to its k-th nearest point
 /// with a similar normal.
-/// \param settings  k is its member `nearest`.
+/// \param settings  The number k is its member `nearest`.
 template <std::floating_point T>
 void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
                      int threads) {
@@ -174,8 +176,9 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 
 /// Makes a cache of points where irradiance is known, and finds the spacing of each.
 /// \param positions  The points, in scene units.
-/// \param records    Their irradiance and normals, in the same order.
-/// \param settings   Its `nearest` neighbours of like normals determine the spacing.
+/// \param records    Irradiance and normal of each point, in the same order.
+/// \param settings   The spacing of a point is the distance to its k-th nearest point
+///                   with a similar normal, where k is the member `nearest`.
 /// \param threads    As in ParallelSettings; the cache does not depend on it.
 /// \throws std::invalid_argument  if a position is not finite.
 /// \cost O(n log n).
@@ -200,7 +203,7 @@ make_irradiance_cache(const std::vector<Vec3T<T>>& positions,
 /// \param picture   Size, seed, threads, progress.
 /// \param settings  Settings of gathering.
 /// \return The cache, the same for any number of threads.
-/// \cost settings.rays gather rays per tile, plus a few microseconds.
+/// \cost For each tile one camera ray, and `settings.rays` gather rays for each point.
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] IrradianceCacheT<typename W::Scalar>
 make_irradiance_cache(const W& world, const GatherLookupT<typename W::Scalar>& lookup,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/lamp_shares.hpp
-/// \brief How many photons each lamp sends, by what a picture sees of them.
+/// \brief The number of photons of each lamp, by how much of its light a picture shows.
 
 #include <cmath>
 #include <vector>
@@ -13,13 +13,14 @@
 namespace ljus {
 
 /// \defgroup lamp_shares Shares of photons by lamp
-/// \brief Photons of lamps that light what is seen \cite peter1998. Chapter:
-/// \ref ch_lamps.
+/// \brief A lamp that lights what the camera sees sends more photons \cite peter1998.
+/// Chapter: \ref ch_lamps.
 /// \{
 
-/// The places at which a picture asks the photon maps, as a map of *importance*: the
-/// surfaces that camera paths meet first, through mirrors and glass, and those that
-/// they meet next. The flux of each is the throughput of its path.
+/// The places at which a picture queries the photon maps: the first and the second
+/// non-specular surface that each camera path meets. They are stored as photons. The
+/// flux of such a photon is the throughput of the path there, which is called its
+/// *importance*.
 /// \cost 1024 paths.
 template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 [[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,
@@ -59,19 +60,20 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
     return make_photon_map(places, 1);
 }
 
-/// Settings in which lamps share the photons by what the picture sees of them, measured
-/// by pilot_lights(). A photon counts as much as the light that it brings to the
-/// seen_places() around it. A lamp in a closed cupboard, or behind the house, keeps a
-/// tenth of its share by power.
+/// Settings in which lamps share the photons by how much of their light the picture
+/// shows. A pilot pass measures this, see pilot_lights(); each of its photons is
+/// weighted with the importance of the seen_places() around it. A lamp whose light the
+/// picture does not show, such as one in a closed cupboard, keeps a tenth of its share
+/// by power.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
-/// \param settings  Shares that are given are kept.
+/// \param settings  The settings to change; shares that they contain are kept.
 /// \param width     Width of the picture, in pixels.
-/// \param height    Its height.
-/// \return The settings, with `light_shares` of both passes; unchanged for fewer than
-///         two lamps. A pass that sends fewer than 800 photons for each lamp is left as
-///         it is.
-/// \cost A twentieth of the photons, and 1024 paths of the camera.
+/// \param height    Height of the picture, in pixels.
+/// \return The settings with `light_shares` for both passes. They are unchanged if
+///         there are fewer than two lamps, and a pass with fewer than 800 photons per
+///         lamp is unchanged.
+/// \cost A twentieth of the photons, and 1024 camera paths.
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings
 share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,

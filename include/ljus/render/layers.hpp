@@ -19,19 +19,20 @@
 namespace ljus {
 
 /// \defgroup layers Pictures in layers
-/// \brief What denoisers and compositing programs take beside a picture, in one pass.
-/// Chapter: \ref ch_today_layers.
+/// \brief A picture and the data about it that denoisers and compositing programs use,
+/// rendered in one pass. Chapter: \ref ch_today_layers.
 /// \{
 
 /// A layer with the light of some paths.
 struct PathLayer {
-    std::string name{};  ///< As "caustics".
-    std::string paths{}; ///< Their class, as for light_path_expression().
+    std::string name{};  ///< Name of the layer, such as "caustics".
+    std::string paths{}; ///< The class of its light paths, as in
+                         ///< light_path_expression().
 };
 
-/// The four classes of light paths: what the eye sees of lamps, and at the first
-/// diffuse or glossy surface direct light, caustics and indirect light. Each path is in
-/// one of them, so that their layers add up to the picture.
+/// Four classes of light paths: emission of lamps that the eye sees, and direct light,
+/// caustics and indirect light at the first diffuse or glossy surface. Each path is in
+/// exactly one class, so that the four layers add up to the picture.
 [[nodiscard]] inline std::vector<PathLayer> light_path_layers() {
     return {{"emission", "ES*L"},
             {"direct", "ES*DL"},
@@ -41,32 +42,36 @@ struct PathLayer {
 
 /// Which layers a picture has.
 ///
-/// Normal and albedo are those of the first surface that is neither a mirror nor clear
-/// glass, along one random path for each ray of the picture; their means are as soft at
-/// edges and under a lens as the picture itself, which denoisers need. Depth, position
-/// and object are those of the first surface on the ray through the middle of the
-/// pixel, of the lens and of the exposure, because a mean would belong to no surface.
+/// Normal and albedo are means over all rays of a pixel, which denoisers need. Each ray
+/// is followed to the first surface that is neither a mirror nor clear glass. Depth,
+/// position and object are not means. They belong to the first surface on one ray,
+/// through the middle of the pixel and of the lens, at the middle of the exposure.
 struct LayerSettings {
-    bool normal = false; ///< "N": the mean shading normal on the visible side, in the
-                         ///< world; at most 1 long. A ray that leaves the scene adds 0.
-    bool albedo = false; ///< "albedo": the mean directional albedo, times that of the
-                         ///< mirrors and glass before it. A ray that leaves adds 0.
-    bool depth = false;  ///< "Z": the distance along the ray, in scene units; infinite
-                         ///< where it leaves the scene.
-    bool position = false; ///< "P": the point in the world; 0 where there is none.
+    /// "N": the mean shading normal on the visible side, in world space; its length is
+    /// at most 1. A ray that leaves the scene adds 0.
+    bool normal = false;
+    /// "albedo": the mean directional albedo, times the albedo of the mirrors and glass
+    /// that the ray has met before. A ray that leaves the scene adds 0.
+    bool albedo = false;
+    bool depth = false; ///< "Z": the distance along the ray, in scene units; infinite
+                        ///< where the ray leaves the scene.
+    bool position = false; ///< "P": the point in world space; 0 where the ray leaves
+                           ///< the scene.
     bool object = false;   ///< "id": the number of the object, from 1 on, in the order
-                           ///< of World::objects(); 0 where there is none.
-    std::vector<PathLayer> paths{}; ///< Light; at most 64. See light_path_layers().
+                           ///< of World::objects(); 0 where the ray leaves the scene.
+    std::vector<PathLayer> paths{}; ///< Layers of light, at most 64; see
+                                    ///< light_path_layers().
 };
 
 /// A picture and its layers.
 template <std::floating_point T>
 struct RenderedLayersT {
-    RenderedT<T> rendered{};         ///< As render() returns it, byte for byte.
+    RenderedT<T> rendered{};         ///< The result of render(), byte for byte.
     std::vector<LayerT<T>> layers{}; ///< In the order of LayerSettings.
 };
 
-/// The layers of a picture before it is rendered: their names and channels, all 0.
+/// The layers of a picture with their names and channels, before it is rendered: all
+/// pixels are 0.
 /// \throws std::invalid_argument  as make_image().
 template <std::floating_point T>
 [[nodiscard]] std::vector<LayerT<T>> make_layers(const LayerSettings& which, int width,
@@ -88,10 +93,10 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The largest number of mirrors and boundaries of glass that are followed.
+/// The largest number of surfaces that a path to a normal or an albedo meets.
 inline constexpr int max_guide_depth = 16;
 
-/// What one ray adds to the layers of normals and albedos.
+/// The contribution of one ray to the layers of normals and albedos.
 template <std::floating_point T>
 struct GuideT {
     Vec3T<T> normal{T(0)};
@@ -119,7 +124,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return {};
 }
 
-/// A stream of the middle of every range: of a lens, of an exposure.
+/// A stream whose numbers are all 1/2. A camera ray with this stream passes the middle
+/// of the lens at the middle of the exposure.
 struct MiddleStream {};
 /// The middle of [0, 1).
 template <std::floating_point T = float>
@@ -144,9 +150,9 @@ struct LayeredPixel {
     RgbT<double> picture{0};
     Vec3T<double> normal{0};
     RgbT<double> albedo{0};
-    std::vector<RgbT<double>> light{}; ///< One per class of paths.
+    std::vector<RgbT<double>> light{}; ///< Sums of light, one per class of paths.
 
-    /// Makes means of the sums.
+    /// Divides each sum by the number of rays, which gives the means.
     void divide(double rays) {
         picture /= rays;
         normal /= rays;
@@ -169,8 +175,9 @@ public:
 
     /// Traces one ray.
     /// \param at     Which ray.
-    /// \param sums   Receives what it finds.
-    /// \param count  Counts its rays, and whether the sample is not finite.
+    /// \param sums   The sums of the pixel, to which the ray's radiance and other data
+    ///               are added.
+    /// \param count  Counts rays, and samples that are not finite.
     void trace(const PixelRay& at, LayeredPixel& sums, Counts& count) {
         typename R::Stream stream;
         const auto sample = sample_pixel<T>(rays_, at, stream);
@@ -194,7 +201,7 @@ public:
     }
 
 private:
-    // The radiance of a ray; that of each class is left in the log.
+    // The radiance of a ray. The radiance of each class of paths is left in the log.
     [[nodiscard]] RgbT<T> light_of(const RayT<T>& ray, typename R::Stream& stream,
                                    Counts& count) {
         log_.takers.clear();
@@ -225,8 +232,8 @@ private:
     typename BatchOf<R>::Type batch_{};
 };
 
-/// The values of one pixel in all layers, in their order.
-/// \param means   Sums over its rays, divided by their number.
+/// Calls `add` with the value of one pixel in each layer, in the order of the layers.
+/// \param means   The sums over the rays of the pixel, divided by their number.
 /// \param middle  The ray through the middle of the pixel.
 template <AnyWorld W, std::floating_point T, typename Add>
 void layer_values(const LayerSettings& which, const LayeredPixel& means, const W& world,
@@ -253,10 +260,11 @@ void layer_values(const LayerSettings& which, const LayeredPixel& means, const W
 
 /// Renders a picture and its layers in one pass.
 ///
-/// Layers of light are made of the terms that the renderer reports. A photon map
-/// answers for a whole class of paths, as "DS+L", and counts as its shortest path. Its
-/// light can thus be divided by the surfaces that the camera path has met, but not by
-/// those that the photons have met. Every preset has the layers of light_path_layers().
+/// Layers of light consist of the terms that the renderer reports. A photon map reports
+/// one term for a whole class of paths, such as "DS+L". For the layers this term counts
+/// as the shortest path of the class. A layer can therefore select light of a photon
+/// map by the surfaces on the camera path, but not by those that the photons have met.
+/// Every preset has the layers of light_path_layers().
 /// \param renderer  A PathTracer, a PhotonMapper, or another Renderer with world().
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size, rays, seed, threads.
@@ -267,9 +275,9 @@ void layer_values(const LayerSettings& which, const LayeredPixel& means, const W
 ///         all layers of light.
 /// \throws std::invalid_argument  as render(), and for more than 64 classes of paths
 ///         or one that light_path_expression() refuses.
-/// \cost The picture; a few bit operations per vertex and class of paths; a path up to
-///         the first matt surface per ray for normals or albedos; a ray per pixel for
-///         depth, position or object.
+/// \cost The cost of the picture and a few bit operations per vertex and class of
+///       paths. Normals or albedos cost one more path per ray, up to the first matt
+///       surface. Depth, position or object cost one more ray per pixel.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedLayersT<typename C::Scalar>

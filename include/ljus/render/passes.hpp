@@ -48,26 +48,28 @@ template <AnyWorld W>
     return found;
 }
 
-/// Which passes run: the decisions of a plan, without their reasons.
+/// Which passes run: the decisions of a Plan, without their reasons. Members without a
+/// comment are explained in Plan.
 struct Passes {
-    bool shadow_rays = false;      ///< As in Plan.
-    bool indirect_rays = false;    ///< As in Plan.
-    bool caustics_map = false;     ///< As in Plan.
-    bool general_map = false;      ///< As in Plan.
-    bool volume_map = false;       ///< As in Plan.
-    bool shadow_photons = false;   ///< As in Plan.
-    bool skipped_rays = false;     ///< As in Plan.
-    bool skipped_bounces = false;  ///< As in Plan.
-    bool irradiance = false;       ///< As in Plan.
-    bool cache = false;            ///< As in Plan.
-    bool gloss_as_mirrors = false; ///< PhotonPassSettings::gloss_as_mirrors.
+    bool shadow_rays = false;
+    bool indirect_rays = false;
+    bool caustics_map = false;
+    bool general_map = false;
+    bool volume_map = false;
+    bool shadow_photons = false;
+    bool skipped_rays = false;
+    bool skipped_bounces = false;
+    bool irradiance = false;
+    bool cache = false;
+    bool gloss_as_mirrors = false; ///< Value of PhotonPassSettings::gloss_as_mirrors.
     bool caustics_on_gloss = true; ///< Whether the caustics map may have photons where
                                    ///< there is no diffuse lobe.
 };
 
 namespace detail {
 
-/// Whether photons of a general pass light the fog: indirect light is asked for.
+/// Whether the general pass stores photons in fog. It does if indirect light is asked
+/// for.
 [[nodiscard]] inline bool
 scatters_in_fog(const PhotonMappingSettings& settings) noexcept {
     return settings.indirect != IndirectLight::none && settings.general.photons > 0;
@@ -116,7 +118,7 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The skip settings, restricted to the passes that run.
+/// The skip settings, without the rules whose passes do not run.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;
@@ -125,8 +127,9 @@ namespace detail {
     return skip;
 }
 
-/// Why the photon maps of a scene with fog do not carry its light.
-/// \return A sentence without a full stop; empty if they do, or without fog.
+/// The reason why a PhotonMapper cannot render a scene with fog with these settings.
+/// \return A sentence without a full stop; empty if there is no fog, or if the mapper
+///         can render the scene.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string
 refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
@@ -137,8 +140,8 @@ refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
                "its light out; let indirect light come by rays, map or photons, or "
                "remove the fog";
     if (settings.skip.rule != SkipRule::none || settings.skip.indirect_rays)
-        return "the scene has fog, whose dimming is not in photons that make rays "
-               "needless; skip no rays, or remove the fog";
+        return "the scene has fog, and photons that say which rays to skip do not know "
+               "how much it dims; skip no rays, or remove the fog";
     return {};
 }
 

@@ -11,23 +11,27 @@
 namespace ljus {
 
 /// \defgroup path_tracing Path tracing
-/// \brief Section 2: the rendering equation (Eq. 1), after Kajiya \cite kajiya1986.
+/// \brief Solves the rendering equation (Section 2, Eq. 1) by random paths, after
+/// Kajiya \cite kajiya1986.
 /// \{
 
 /// How paths are traced.
 struct PathTracingSettings {
-    int max_depth = 1000;      ///< Surfaces on a camera path; 1 is direct light only.
+    int max_depth = 1000;      ///< Largest number of surfaces on a camera path; 1 is
+                               ///< direct light only.
     int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
     bool sample_lights = true; ///< Whether to send shadow rays.
-    MisHeuristic heuristic = MisHeuristic::balance; ///< Weights with shadow rays.
+    MisHeuristic heuristic = MisHeuristic::balance; ///< MIS weights of light that both
+                                                    ///< paths and shadow rays find.
     FogLight fog = FogLight::both; ///< How light that fog scatters is found.
     double roulette_threshold =
         1;                   ///< Roulette applies below this throughput; 0: never.
     double roulette_max = 1; ///< Largest survival probability, in (0, 1].
 };
 
-/// Refuses settings that give no picture.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings.
+/// \throws std::invalid_argument  if a setting is out of range, with its name and
+///         value.
 inline void check(const PathTracingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require(settings.roulette_threshold >= 0, "roulette_threshold",
@@ -43,10 +47,10 @@ template <typename W>
 class PathTracer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
-    static constexpr bool carries_fog = true; ///< Its paths are scattered by fog.
+    static constexpr bool carries_fog = true; ///< Fog scatters the paths.
 
     /// \param world     Must outlive the tracer.
-    /// \param settings  Limits.
+    /// \param settings  Depth, roulette, light sampling.
     /// \throws std::invalid_argument  if a setting is out of range, or the scene has
     ///         both fog and a thin surface.
     explicit PathTracer(WorldRef<W> world, const PathTracingSettings& settings = {})
@@ -54,7 +58,7 @@ public:
         check(settings);
         require_no_film_in_fog(world_.get());
     }
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// How paths are traced.
     [[nodiscard]] const PathTracingSettings& settings() const noexcept {
@@ -71,8 +75,8 @@ PathTracer(const W&, const PathTracingSettings& = {}) -> PathTracer<W>;
 
 namespace detail {
 
-/// The MIS weight of light that a path finds; 1 if no shadow ray from the vertex before
-/// could have found it.
+/// The MIS weight of light that a path finds. The weight is 1 if no shadow ray from the
+/// previous vertex could have found the light.
 /// \param tracer  The tracer.
 /// \param light   The number of the light.
 /// \param pdf     Returns the density of a shadow ray to that light, per steradian;
@@ -89,7 +93,7 @@ template <AnyWorld W, std::floating_point T, typename Pdf>
 }
 
 /// The emission of a lamp that a path has met, times the MIS weight of the path.
-/// \param vertex  The point of the lamp that it hit.
+/// \param vertex  The point of the lamp that the path hit.
 /// \return Throughput times radiance times the weight.
 /// \report{Eq. (1)}
 // [emitted]
@@ -120,9 +124,10 @@ template <AnyWorld W, std::floating_point T>
     return sum;
 }
 
-/// Ends a path, or prepares it for its next ray: the limit of depth, and roulette.
+/// Decides whether a path continues, by max_depth and roulette, and counts its next
+/// ray.
 /// \param path  The path after its scattering.
-/// \return Whether it goes on.
+/// \return Whether the path continues.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] bool goes_on(const PathTracer<W>& tracer, PathStateT<T>& path,
                            Context& context) {
@@ -143,10 +148,10 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return true;
 }
 
-/// Adds the light that fog scatters towards a path before its next surface, and
-/// perhaps scatters the path.
+/// Adds the light that fog scatters towards the eye along a path's ray, up to the next
+/// surface. The fog may also scatter the path itself.
 /// \param path     The path after next_vertex(); receives its new ray.
-/// \param before   Its throughput before next_vertex().
+/// \param before   The throughput of the path before next_vertex().
 /// \param surface  Distance of the next surface.
 /// \param terms    Receives the light.
 // [cross fog]
@@ -187,9 +192,9 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 /// Each diffuse surface sends a shadow ray to one light, chosen by power; the path then
 /// continues in a direction sampled by the material. A lamp that the path meets counts
 /// with its weight of multiple importance sampling. After a mirror or glass this weight
-/// is 1, because no shadow ray could find the lamp. A scattering in fog counts as
-/// diffuse, and as a surface in the limit of depth.
-/// \param tracer   The world and the limits.
+/// is 1, because no shadow ray could find the lamp. A scattering in fog counts as a
+/// diffuse surface, also in max_depth.
+/// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
 /// \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never reached.

@@ -22,7 +22,7 @@
 namespace ljus {
 
 /// \defgroup photon_mapping Photon mapping
-/// \brief Section 3: the two-pass renderer. Chapter: \ref ch_two_pass.
+/// \brief The two-pass renderer of Section 3. Chapter: \ref ch_two_pass.
 ///
 /// Every light path has one owner:
 ///
@@ -33,50 +33,56 @@ namespace ljus {
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
 /// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
 ///
-/// Scattering in fog is a D as well, but no camera path is scattered there. At each of
-/// its rays shadow rays own D L in the fog, and the volume map (\ref volume_photons)
-/// owns all other light that the fog scatters towards the ray, D S+ L and D ... D L.
+/// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
+/// scatters light towards the eye along each ray of a camera path. Of this light,
+/// shadow rays own D L, and the volume map (\ref volume_photons) owns all else: D S+ L
+/// and D ... D L.
 ///
-/// A glossy surface is a D. Where irradiance is looked up, by IndirectLight::gather and
-/// cache, nearly_specular() gloss between a light and a surface with a diffuse lobe is
-/// an S, and no path ends on any other gloss. No photon map is asked for the light that
-/// rough glass scatters through itself, see scatters_through(): paths go on, also with
-/// IndirectLight::photons and IndirectLight::map. Photons that went through rough glass
-/// are indirect ones elsewhere.
+/// A glossy surface is a D, with one exception. IndirectLight::gather and cache treat a
+/// nearly_specular() surface as an S if it lies between a light and a surface with a
+/// diffuse lobe. At all other glossy surfaces camera paths continue.
+///
+/// Photon maps are not queried for the light that rough glass scatters through itself,
+/// see scatters_through(). Paths therefore continue at rough glass, even with
+/// IndirectLight::photons and IndirectLight::map. Photons that have passed through
+/// rough glass count as indirect where they land.
 /// \{
 
 /// \name Optional abilities of a photon mapper
 /// Each has its own header and is listed by abilities<...>. An ability that is not
 /// listed costs nothing.
 /// \{
-struct Gathering; ///< IndirectLight::gather and cache: ljus/render/gathering.hpp.
-struct Skipping;  ///< SkipSettings: ljus/render/skipping.hpp.
-struct Budgeting; ///< CausticBudget: ljus/render/budgeting.hpp.
+struct Gathering; ///< For IndirectLight::gather, cache: ljus/render/gathering.hpp.
+struct Skipping;  ///< For SkipSettings: ljus/render/skipping.hpp.
+struct Budgeting; ///< For CausticBudget: ljus/render/budgeting.hpp.
 /// \}
 
 /// The template arguments of a renderer: its abilities, and its random stream.
 template <typename... X>
 struct Abilities {};
-/// `PhotonMapper(world, settings, abilities<Gathering, StratifiedStream>)`.
+/// Abilities as an argument: `PhotonMapper(world, settings, abilities<Gathering>)`.
 template <typename... X>
 inline constexpr Abilities<X...> abilities{};
 
-/// What the photons left on surfaces (the report, Section 3.2.2).
+/// The maps that the photon passes have made (Section 3.2.2 of the report).
 template <std::floating_point T>
 struct PhotonMapsT {
-    PhotonMapT<T> caustics; ///< L S+ D; empty if the scene has no mirror and no glass.
-    PhotonMapT<T> lone;    ///< Those of the caustics map that are lone_photons(); empty
-                           ///< unless PhotonMappingSettings::lone_radius is above 1.
-    PhotonMapT<T> general; ///< L D, L ... D ... D, and shadows; empty unless asked for.
-    VolumeMapT<T> fog_caustics; ///< L S+ D where D is fog; empty without fog.
-    VolumeMapT<T> fog;          ///< L ... D ... D where the last D is fog; the same.
+    PhotonMapT<T> caustics; ///< Photons L S+ D; empty if the scene has no mirror and no
+                            ///< glass.
+    PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
+                            ///< PhotonMappingSettings::lone_radius is above 1.
+    PhotonMapT<T> general; ///< Photons L D and L ... D ... D, and shadow photons; empty
+                           ///< unless asked for.
+    VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
+    VolumeMapT<T> fog; ///< Photons L ... D ... D where the last D is fog; empty without
+                       ///< fog.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
     bool starved = false;       ///< Whether the general map has fewer indirect photons
                                 ///< than IrradiancePointSettings::least.
-    bool complete = true;       ///< False if the progress callback stopped the pass.
-    std::string remarks{};      ///< Of the passes, one per line; mapper_remarks()
-                                ///< adds those about the scene.
+    bool complete = true;       ///< False if the progress callback stopped a pass.
+    std::string remarks{};      ///< Remarks about the passes, one per line;
+                                ///< mapper_remarks() adds those about the scene.
 };
 
 namespace detail {
@@ -87,13 +93,12 @@ concept Included = requires {
     sizeof(X);
 };
 
-/// The state of an ability in one precision; a stream has none, nor an ability whose
-/// header is missing.
+/// The state of an ability in precision T.
 template <typename X, std::floating_point T>
 struct StateOf {
     using Type = typename X::template State<T>; ///< The state.
 };
-/// For a stream.
+/// A stream has no state, and neither has an ability whose header is not included.
 template <typename X, std::floating_point T>
 requires(!Included<X> || StreamLike<X>) struct StateOf<X, T> {
     using Type = Abilities<X>; ///< No state.
@@ -104,13 +109,13 @@ template <typename... X>
 struct StreamAmong {
     using Type = RandomStream; ///< The default.
 };
-/// The first is an ability.
+/// If the first argument is an ability, the stream is among the others.
 template <typename First, typename... X>
 struct StreamAmong<First, X...> : StreamAmong<X...> {};
-/// The first is a stream.
+/// The first argument is a stream.
 template <typename First, typename... X>
 requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
-    using Type = First; ///< The one that is listed.
+    using Type = First; ///< The stream that is listed.
 };
 
 /// The kinds of photons that the general map keeps.
@@ -125,7 +130,7 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
 }
 
 /// The number of photons of a kind.
-/// \param photons  Of the general pass.
+/// \param photons  The photons of the general pass.
 template <std::floating_point T>
 [[nodiscard]] long long count_of(const PhotonPartsT<T>& photons, PhotonKind kind) {
     long long count = 0;
@@ -136,7 +141,7 @@ template <std::floating_point T>
     return count;
 }
 
-/// Removes the photons of all kinds but some.
+/// Removes the photons of all kinds that are not in `kinds`.
 template <std::floating_point T>
 void keep_kinds(PhotonPartsT<T>& photons, PhotonKinds kinds) {
     for (auto& part : photons)
@@ -152,27 +157,27 @@ template <std::floating_point T>
     return all;
 }
 
-/// Whether most photons land once only, as in the open: irradiance points at indirect
-/// photons alone would then be too few.
-/// \param photons  Of the general pass.
+/// Whether direct photons outnumber indirect ones two to one, as they do in the open.
+/// Irradiance points at indirect photons alone would then be too few.
+/// \param photons  The photons of the general pass.
 template <std::floating_point T>
 [[nodiscard]] bool lands_once(const PhotonPartsT<T>& photons) {
     return count_of(photons, PhotonKind::direct) >
            2 * count_of(photons, PhotonKind::indirect);
 }
 
-/// A sentence about a general map with so few indirect photons that paths replace it.
-/// \param indirect  Indirect photons that it kept.
+/// A remark about a general map with so few indirect photons that paths replace it.
+/// \param indirect  The number of its indirect photons.
 [[nodiscard, gnu::cold]] inline std::string
 starved_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons ",
                  to_text(indirect), " landed twice or more, fewer than ",
                  to_text(settings.irradiance.least),
-                 ": paths carry the light between surfaces, not these"});
+                 ": paths carry the light between surfaces instead"});
 }
 
-/// A sentence about a general map whose few indirect photons are used all the same.
-/// \param indirect  Indirect photons that it kept.
+/// A remark about a general map whose indirect photons are few but are used.
+/// \param indirect  The number of its indirect photons.
 [[nodiscard, gnu::cold]] inline std::string
 blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons only ",
@@ -184,7 +189,7 @@ blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
 /// Runs the photon passes: the maps that the plan asks for, and no others.
 /// \param world     The closed scene.
 /// \param settings  Photons, seed, threads.
-/// \param run       Which passes.
+/// \param run       Which passes run.
 /// \param judge     Called with all photons of the general pass, before the kinds that
 ///                  the map does not keep are removed.
 /// \return The maps, the same for any number of threads.
@@ -240,7 +245,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     const long long indirect = count_of(photons, PhotonKind::indirect);
     maps.starved = run.irradiance && indirect < settings.irradiance.least;
     if (maps.starved) maps.remarks.append(starved_remark(indirect, settings) + "\n");
-    // Read over a radius, fewer photons than these blur indirect light across a room.
+    // With fewer photons than this, estimates blur indirect light across a room.
     const long long sharp = std::min(1024LL, settings.general.photons / 10);
     const bool blurred =
         run.general_map && kept.has(PhotonKind::indirect) && indirect < sharp;
@@ -253,7 +258,8 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     return maps;
 }
 
-/// A sentence about a caustics map of fewer than 256 photons, which chose its radius.
+/// A remark about a caustics map of fewer than 256 photons, if the mapper has chosen
+/// the radius of its estimates.
 /// \return Empty, or with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
@@ -266,8 +272,8 @@ template <std::floating_point T>
                  to_text(radius), "; trace more, or choose a caustic budget\n"});
 }
 
-/// A sentence about an estimate whose radius was given in another unit than the
-/// scene's, so that hardly any place finds a photon, or every place finds all of them.
+/// A remark about an estimate whose radius seems to be in a wrong unit. Either hardly
+/// any estimate finds a photon, or every estimate finds all photons.
 /// \return Empty, or with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
@@ -291,14 +297,14 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
 } // namespace detail
 
 /// The report's renderer: photon maps of a world, and the settings that they were made
-/// with. Making one traces the photons; the world must outlive it.
+/// with. The constructor traces the photons. The world must outlive the mapper.
 ///
 ///     const PhotonMapper mapper(world, {.indirect = IndirectLight::map});
 ///     const PhotonMapper fast(world, preset_settings(Preset::fast, 400, 400),
 ///                             abilities<Gathering>);
-/// \tparam X  Its abilities, and its random stream: RandomStream by default, or
-///            StratifiedStream, which stratifies the choice of lamps and directions
-///            over the rays of a pixel.
+/// \tparam X  The abilities of the mapper, and its random stream: RandomStream by
+///            default, or StratifiedStream, which stratifies the choice of lamps and
+///            directions over the rays of a pixel.
 template <typename W, typename... X>
 class PhotonMapper {
     static_assert((detail::Included<X> && ...),
@@ -307,21 +313,22 @@ class PhotonMapper {
 
 public:
     using Scalar = typename W::Scalar; ///< The precision.
-    /// The random stream that render() passes to it.
+    /// The random stream that render() passes to the mapper.
     using Stream = typename detail::StreamAmong<X...>::Type;
-    /// Caustics are estimated for many samples of a picture together.
+    /// The batch of samples whose caustics are estimated together.
     using Batch = detail::CausticsBatch<Scalar>;
-    static constexpr bool carries_fog = true; ///< Its maps hold the light in fog.
+    static constexpr bool carries_fog = true; ///< The volume map holds the light in
+                                              ///< fog.
     /// Whether an ability is listed.
     template <typename A>
     static constexpr bool has = ((std::is_same_v<A, X> && detail::Included<X>) || ...);
 
     /// Traces the photons that the scene requires.
     /// \param world     Must outlive the mapper.
-    /// \param settings  Photons, depths, radii, source of indirect light. A radius of 0
-    ///                  is chosen from the photons.
-    /// \throws std::invalid_argument  if a setting is out of range, asks for an ability
-    ///         that is not listed, or for what fog does not allow.
+    /// \param settings  Photons, depths, radii, source of indirect light. In place of a
+    ///                  radius of 0 the mapper chooses one from the photons.
+    /// \throws std::invalid_argument  if a setting is out of range, needs an ability
+    ///         that is not listed, or is not allowed with fog.
     [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world,
                                         const PhotonMappingSettings& settings = {},
                                         Abilities<X...> = {})
@@ -378,11 +385,11 @@ public:
         choose_radii();
     }
 
-    /// Takes caustics photons that were traced elsewhere: by other machines, or kept in
-    /// a file.
-    /// \param caustics  L S+ D, of this world. A radius of 0 is chosen from them.
+    /// Takes caustics photons that were traced by other machines or read from a file.
+    /// \param caustics  Photons L S+ D of this world. If the settings give a radius of
+    ///                  0, the radius is chosen from them.
     /// \throws std::invalid_argument  if the mapper has traced caustics photons itself,
-    ///         or has gathered irradiance without them.
+    ///         or has computed irradiance points without them.
     void set_caustics(PhotonMapT<Scalar> caustics) {
         require(!passes_.caustics_map, "caustics.photons", settings_.caustics.photons,
                 "0, for a mapper that takes photons traced elsewhere");
@@ -395,7 +402,7 @@ public:
         choose_radii();
     }
 
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// The settings, with the radii and photon shares that the mapper has chosen.
     [[nodiscard]] const PhotonMappingSettings& settings() const noexcept {
@@ -403,14 +410,14 @@ public:
     }
     /// Which passes ran.
     [[nodiscard]] const Passes& passes() const noexcept { return passes_; }
-    /// The photons that they stored.
+    /// The photons that the passes stored.
     [[nodiscard]] const PhotonMapsT<Scalar>& maps() const noexcept { return maps_; }
     /// The state of an ability.
     template <typename A>
     [[nodiscard]] const auto& state() const noexcept {
         return std::get<typename A::template State<Scalar>>(states_);
     }
-    /// The lobes by which a path continues until it gathers.
+    /// The lobes by which a camera path continues until it looks up indirect light.
     [[nodiscard]] Lobes bounces() const noexcept {
         return passes_.indirect_rays ? Lobes::all
                : settings_.indirect == IndirectLight::cache
@@ -479,7 +486,7 @@ private:
     WorldRef<W> world_;
     PhotonMappingSettings settings_;
     Passes passes_;
-    bool radius_is_chosen_ = false; // of the caustics
+    bool radius_is_chosen_ = false; // for the caustics map
     PhotonMapsT<Scalar> maps_{};
     std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
 };
@@ -490,13 +497,14 @@ PhotonMapper(const W&, const PhotonMappingSettings& = {}, Abilities<X...> = {})
 
 namespace detail {
 
-/// Direct light at a surface, by shadow rays, or by verdicts where they are known.
+/// Direct light at a surface. Where shadow photons tell whether a light is visible, no
+/// shadow ray is sent.
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_of_lights(const Mapper& mapper, const VertexT<T>& vertex,
                                       const M& material, const DirectLightSettings& how,
                                       Context& context) {
     if constexpr (Mapper::template has<Skipping>)
-        if (!scatters_through(material)) // a verdict is about one side
+        if (!scatters_through(material)) // a verdict holds for one side only
             return sample_all_lights(
                 mapper.world(), vertex, material, how, context,
                 verdicts_of(mapper, at_rest(mapper.world(), vertex)));
@@ -509,12 +517,12 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
     return !OnlySpecular<M> && !std::same_as<M, LambertianT<typename M::Scalar>>;
 });
 
-/// How direct light is found at a surface. A path goes on after gloss, and its next ray
-/// finds the lamps that a ray for them alone would. At the gloss that it meets later,
-/// one shadow ray to each light is enough if no gloss is narrow: what that leaves out
-/// of a narrow highlight would be noise.
+/// How direct light is found at a surface. If a path continues at a glossy surface, its
+/// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
+/// surfaces after the first diffuse one, one shadow ray to each light is enough, unless
+/// nearly specular surfaces count as mirrors.
 /// \param path  The path at the surface.
-/// \param open  The lobes by which it continues.
+/// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] DirectLightSettings direct_light_at(const Mapper& mapper,
                                                   const PathStateT<T>& path,
@@ -534,15 +542,17 @@ template <typename Mapper, std::floating_point T, Material M>
 
 } // namespace detail
 
-/// Adds the light that a diffuse surface reflects along a camera path, except that of
-/// its indirect ray: by shadow rays and the caustics map, or by the two maps where an
-/// indirect ray has ended.
+/// Adds the light that a diffuse surface reflects along a camera path, except light
+/// that the path's next ray finds. Direct light comes by shadow rays, and caustics come
+/// from the caustics map. Where an indirect ray ends, the general map takes the place
+/// of the shadow rays; irradiance points take the place of the shadow rays and of the
+/// caustics map.
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param gather    Whether the general map provides all light except caustics.
+/// \param gather    Whether an indirect ray ends here.
 /// \param direct    How shadow rays find direct light.
-/// \param context   The random stream of the path; counts rays and photons; its batch
+/// \param context   The random stream of the path. Counts rays and photons. Its batch
 ///                  may delay the query of the caustics map.
 /// \param add       The sum of the path.
 /// \report{Sections 3.2.3 and 3.2.6}
@@ -607,8 +617,9 @@ namespace detail {
 
 /// Adds the light that fog scatters towards a ray of a camera path, and dims the path.
 ///
-/// The path itself is not scattered. A flight that may end in the fog only chooses a
-/// point for a shadow ray, beside equi-angular sampling.
+/// The path itself is not scattered. Shadow rays start at two random points of its ray.
+/// One point is chosen by equi-angular sampling, the other by a free flight that may
+/// end in the fog.
 /// \param mapper   The world and the maps.
 /// \param path     The path after next_vertex().
 /// \param before   Its throughput before next_vertex().
@@ -621,7 +632,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context,
 void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
                const RgbT<T>& before, T surface, Context& context, const Sum& add) {
     const W& world = mapper.world();
-    if (!meets_fog(world, path.ray) || is_black(before)) return; // flights divide by it
+    if (!meets_fog(world, path.ray) || is_black(before)) return; // fly() divides by it
     FogSegmentT<T> segment{path.ray, before};
     segment.ray.t_max = surface;
     if (world.light_count() > 0) {
@@ -651,27 +662,28 @@ void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
 /// The largest number of branches that split off from one camera path at glass.
 inline constexpr std::size_t max_splits = 8;
 
-/// The survival probability of a branch that was split off is multiplied by this. By
-/// its throughput alone a faint branch would rarely survive roulette, and would then be
-/// bright noise. The expected value does not depend on the number.
+/// Factor of the survival probability of a branch that was split off at glass. Without
+/// the factor a faint branch would rarely survive roulette, and would then be bright
+/// noise. The expected value does not depend on the factor.
 inline constexpr int split_survival = 16;
 
 } // namespace detail
 
 /// The radiance that one camera path finds with the photon maps.
 ///
-/// At each diffuse surface: one shadow ray to each light, the caustics map, and one
-/// indirect ray; at each mirror or glass: one branch. With IndirectLight::map the
-/// general map is queried at the first diffuse surface that an indirect ray meets; with
-/// IndirectLight::photons, at the diffuse surface that the camera path meets. With
-/// split_glass a path is split at glass until it meets a diffuse surface. Otherwise one
-/// path in a few hundred is reflected inside a ball to the lamp, and its pixel is a
-/// hundred times too bright.
+/// At each diffuse surface the path sends shadow rays to each light, queries the
+/// caustics map and continues by one indirect ray. At each mirror or glass it continues
+/// by one branch. With IndirectLight::map the general map is queried at the first
+/// diffuse surface that an indirect ray meets; with IndirectLight::photons, at the
+/// diffuse surface that the camera path meets. With split_glass a path follows both
+/// branches at glass until it meets a diffuse surface. Without it, one path in a few
+/// hundred is reflected inside a glass ball to a lamp, and makes its pixel a hundred
+/// times too bright.
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts rays and photons, logs terms.
-/// \return Radiance, W/(m^2 sr); biased by the radius of the estimates, and by the
-///         depth where one is set.
+/// \return Radiance, W/(m^2 sr); biased by the radius of the estimates and by
+///         max_depth.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
 ///          though the shadow ray had counted it.}
@@ -684,8 +696,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
     std::vector<PathStateT<T>> branches; // split off at glass; each may split again
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
-        bool gloss_mirrors = false; // whether narrow gloss is a mirror to this path
-        // Shadow rays that share each light with the path's next ray.
+        bool gloss_mirrors = false; // nearly specular gloss is an S
+        // The number of shadow rays that share each light with the path's next ray.
         [[maybe_unused]] int sharing = 0;
         while (path.depth < settings.max_depth) {
             [[maybe_unused]] const RgbT<T> before = path.throughput;
@@ -718,7 +730,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                 if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
                     if (second && settings.indirect != IndirectLight::map &&
                         (has(parts, Lobes::glossy) || mapper.maps().starved)) {
-                        // No irradiance says what a glossy surface reflects.
+                        // Irradiance does not determine what a glossy surface reflects.
                         gather = false;
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
@@ -749,7 +761,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         branches.push_back(*other);
                         return true;
                     }
-                // One branch; after gathering, by mirrors and glass only.
+                // Follows one branch; after a lookup, by mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) && !through &&

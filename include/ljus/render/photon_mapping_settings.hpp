@@ -18,7 +18,7 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// The source of light that has met two diffuse surfaces.
+/// The source of indirect light, which has met at least two diffuse surfaces.
 enum class IndirectLight : std::uint8_t {
     rays,    ///< Indirect rays at every bounce.
     map,     ///< One indirect ray, and the general map where it ends.
@@ -26,7 +26,7 @@ enum class IndirectLight : std::uint8_t {
              ///< noise, but blurred by the radius.
     gather,  ///< One gather ray, and precomputed irradiance where it ends.
     cache,   ///< Many gather rays at few points, interpolated between them.
-    none     ///< None: direct light and caustics only.
+    none     ///< No indirect light: direct light and caustics only.
 };
 
 namespace detail {
@@ -47,16 +47,18 @@ inline constexpr std::size_t max_cache_nearest = 64;
 /// How irradiance is gathered and interpolated.
 struct GatherSettings {
     int rays = 25;           ///< Gather rays per point, at least 1.
-    int tile = 3;            ///< Side of the square of pixels for each point.
-    std::size_t nearest = 6; ///< Points in an interpolation, 2 to 64.
+    int tile = 3;            ///< Side of a square tile, in pixels; one camera ray
+                             ///< through each tile makes points.
+    std::size_t nearest = 6; ///< Number of points in an interpolation, 2 to 64.
     float reach = 1;     ///< Largest distance of a point that is used, as a multiple
                          ///< of the harmonic mean length of its gather rays.
-    int max_depth = 100; ///< Surfaces on a gather ray.
+    int max_depth = 100; ///< Largest number of surfaces on the path of a gather ray.
 };
 
 /// Settings of the report's renderer. Lengths are in scene units.
 struct PhotonMappingSettings {
-    int max_depth = 1000;   ///< Surfaces on a camera path, mirrors and glass counted.
+    int max_depth = 1000;   ///< Largest number of surfaces on a camera path, including
+                            ///< mirrors and glass.
     int roulette_depth = 4; ///< From this surface on, roulette may end a path.
     int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
     DirectLight direct = DirectLight::sampled; ///< How direct light is found.
@@ -66,29 +68,33 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether a pilot measures how much of each light arrives, and the lights share
-    /// caustics.photons by that, even with CausticBudget::as_seen. The pilot takes at
-    /// most a quarter of the photons. Works with Budgeting only.
+    /// Whether lights share caustics.photons by how much flux of each light arrives,
+    /// even with CausticBudget::as_seen. A pilot pass of at most a quarter of the
+    /// photons measures the flux. The setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
     DensityEstimateSettings caustics_estimate{};
-    /// The radius of the disc of a lone caustic photon, see lone_photons(), over that
-    /// of all others. With 1 a lone photon is as any other; so it is with k nearest.
+    /// A lone caustic photon (see lone_photons()) has a disc whose radius is this
+    /// number times the radius of other discs, 1 to 1000. Ignored by estimates with the
+    /// k nearest photons.
     float lone_radius = 1;
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
-    BeamEstimateSettings fog_estimate{};  ///< How photons in fog are spread.
-    IrradiancePointSettings irradiance{}; ///< Points that gather rays look up.
+    BeamEstimateSettings fog_estimate{};  ///< How photons in fog are estimated.
+    IrradiancePointSettings irradiance{}; ///< How the points that gather rays look up
+                                          ///< are made.
     GatherSettings gather{};              ///< How the irradiance cache is made.
-    SkipSettings skip{}; ///< Rays that photons make unnecessary; none by default.
-    bool keep_general_map = false; ///< Make the general map even if no ray queries it.
+    SkipSettings skip{};           ///< Which rays are omitted because photons make them
+                                   ///< unnecessary; none by default.
+    bool keep_general_map = false; ///< Whether to make the general map even if no ray
+                                   ///< queries it.
 };
 
-/// Refuses settings that give no picture.
-/// \param settings  The settings.
-/// \throws std::invalid_argument  with name and value.
+/// Checks the settings.
+/// \throws std::invalid_argument  if a setting is out of range, with its name and
+///         value.
 [[gnu::cold]] inline void check(const PhotonMappingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);
@@ -115,7 +121,7 @@ struct PhotonMappingSettings {
     require_at_least("gather.max_depth", settings.gather.max_depth, 2);
     for (DensityEstimateSettings gather :
          {settings.caustics_estimate, settings.general_estimate}) {
-        if (gather.radius == 0) gather.radius = 1; // 0: chosen from the photons later
+        if (gather.radius == 0) gather.radius = 1; // 0 is replaced later
         check(gather);
     }
     require(settings.lone_radius >= 1 && settings.lone_radius <= 1000, "lone_radius",
@@ -126,7 +132,7 @@ struct PhotonMappingSettings {
 
 namespace detail {
 
-/// How lone photons are estimated.
+/// The estimate of lone photons, with a larger radius.
 [[nodiscard]] inline DensityEstimateSettings
 lone_estimate(const PhotonMappingSettings& settings) noexcept {
     DensityEstimateSettings wide = settings.caustics_estimate;
@@ -136,23 +142,23 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 
 } // namespace detail
 
-/// Settings for a purpose.
+/// The purposes for which there are ready settings.
 enum class Preset : std::uint8_t {
     draft, ///< A first look: blotches, in a fraction of a second.
-    fast,  ///< Least time without visible errors. It has bias that more time does not
-           ///< remove: indirect light is smoothed over 4 pixels, so that dark corners
-           ///< are too bright, by 10 % or more within 8 pixels; penumbras are slightly
-           ///< wrong, and caustics and reflections from gloss are blurred. In
-           ///< random scenes a ninth of the picture is off by 5 % or less.
-    exact  ///< Indirect rays at every bounce; only the caustics map is biased.
+    /// Least time without visible errors. More rays do not reduce the bias of this
+    /// preset. Indirect light is smoothed over 4 pixels, so that dark corners are too
+    /// bright, by 10 % or more within 8 pixels. Penumbras are slightly wrong. Caustics
+    /// and glossy reflections are blurred.
+    fast,
+    exact ///< Indirect rays at every bounce; only the caustics map is biased.
 };
 
 /// The settings of a preset. The number of photons depends on the size of the picture,
 /// because smaller pixels show smaller errors; radii are chosen from the photons.
-/// \param preset  Which one.
+/// \param preset  The preset.
 /// \param width   Width of the picture, in pixels.
 /// \param height  Height of the picture, in pixels.
-/// \return All settings; seeds and threads are the caller's.
+/// \return All settings; only seeds and threads have their defaults.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {
     const long long pixels = static_cast<long long>(width) * height;
@@ -173,23 +179,25 @@ enum class Preset : std::uint8_t {
     settings.lone_radius = 4;
     const long long photons =
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
-    // Small pictures need more photons per pixel: blotches scale with the picture.
+    // Small pictures need more photons per pixel, or blotches cover much of the
+    // picture.
     settings.general.photons = photons + (draft ? 0 : 8000);
     settings.caustics.photons = photons / (draft ? 2 : 1);
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
-    if (!draft) settings.irradiance.shadow_rays = 2; // a gather ray is one of 36
-    // The disc of an estimate then covers at most 1/32 of what indirect light falls on.
+    if (!draft) settings.irradiance.shadow_rays = 2; // 36 gather rays are averaged
+    // The disc of an estimate then covers at most 1/32 of the surfaces with indirect
+    // light.
     settings.irradiance.least = 32 * int(settings.irradiance.nearest);
     return settings;
 }
 
-/// The rays per pixel of a preset. The further rays go to pixels around which the first
-/// rays differ. A pixel's own rays do not decide, so that this choice has no bias: see
-/// render_adaptive().
+/// The rays per pixel of a preset. Further rays go to a pixel if the first rays of the
+/// pixels around it differ. The pixel's own rays do not count, so that this choice has
+/// no bias; see render_adaptive().
 struct PresetRays {
-    int first = 1; ///< In every pixel.
-    int more = 0;  ///< The most that are added to a pixel.
+    int first = 1; ///< First rays of every pixel.
+    int more = 0;  ///< Largest number of further rays of a pixel.
     /// If the relative standard deviation of the first rays around a pixel is at least
     /// this, the pixel gets all `more` rays. If it is smaller, the pixel gets a part of
     /// them, in proportion.
@@ -197,7 +205,7 @@ struct PresetRays {
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
-/// \param preset  Which one.
+/// \param preset  The preset.
 /// \return The numbers of rays.
 [[nodiscard]] constexpr PresetRays preset_rays(Preset preset) noexcept {
     if (preset == Preset::draft) return {.first = 1, .more = 0};

@@ -17,13 +17,14 @@ public:
     using Stream = RandomStream; ///< The random stream that render() passes.
 
     /// \param world      Must outlive the tracer.
-    /// \param max_depth  Surfaces on a camera path; 1 is direct light only.
+    /// \param max_depth  Largest number of surfaces on a camera path; 1 is direct light
+    ///                   only.
     /// \throws std::invalid_argument  for a depth below 1.
     explicit PlainPathTracer(WorldRef<W> world, int max_depth = 100)
         : world_(world), max_depth_(max_depth) {
         require_at_least("max_depth", max_depth, 1);
     }
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// The largest number of surfaces on a camera path.
     [[nodiscard]] int max_depth() const noexcept { return max_depth_; }
@@ -41,8 +42,9 @@ PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 /// only if it is seen directly or by mirrors and glass, where no shadow ray could find
 /// it.
 ///
-/// It has no media, thin surfaces, shading normals or MIS weights. The expected value
-/// is that of the PathTracer, but not the noise.
+/// The plain tracer has no MIS weights, and ignores media, thin surfaces and shading
+/// normals. In a scene without these its expected value is that of PathTracer; only the
+/// noise differs.
 /// \param tracer   The world and the depth.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.
@@ -76,7 +78,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
             if (has(lobes(m), Lobes::non_specular) && world.light_count() > 0)
                 sum += throughput * lights *
                        direct_light(world, light, vertex, m, u, MisT<T>{}, counts);
-            // One ray on.
+            // The next ray of the path.
             const auto next =
                 sample(m, vertex.wo, next_3d<T>(stream), Transport::radiance);
             if (!next) return false;

@@ -13,7 +13,7 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// A caustics map with its world, which must outlive it.
+/// A plain photon mapper: a caustics map and its world, which must outlive the mapper.
 template <typename W>
 class PlainPhotonMapper {
 public:
@@ -22,20 +22,20 @@ public:
 
     /// \param world     Must outlive the mapper.
     /// \param caustics  Photons of the first pass, L S+ D.
-    /// \param how       The disc of an estimate.
-    /// \throws std::invalid_argument  if the disc gives no estimate.
+    /// \param how       How the caustics map is queried.
+    /// \throws std::invalid_argument  if a setting of the query is out of range.
     PlainPhotonMapper(WorldRef<W> world, PhotonMapT<Scalar> caustics,
                       const DensityEstimateSettings& how = {})
         : world_(world), caustics_(std::move(caustics)), how_(how) {
         check(how);
     }
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// The photons.
     [[nodiscard]] const PhotonMapT<Scalar>& caustics() const noexcept {
         return caustics_;
     }
-    /// The disc of an estimate.
+    /// How the caustics map is queried.
     [[nodiscard]] const DensityEstimateSettings& how() const noexcept { return how_; }
 
 private:
@@ -51,8 +51,9 @@ PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
 /// The radiance that one camera path finds, by emission, shadow rays, the caustics map
 /// and one indirect ray at each surface.
 ///
-/// It has no media, thin surfaces or shading normals. The expected value is that of
-/// PhotonMapper with IndirectLight::rays, but not the noise.
+/// The plain mapper ignores media, thin surfaces and shading normals. In a scene
+/// without these its expected value is that of PhotonMapper with IndirectLight::rays;
+/// only the noise differs.
 /// \param mapper   World and map.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.

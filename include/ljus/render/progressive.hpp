@@ -25,19 +25,20 @@ namespace ljus {
 /// \{
 
 /// The mean of many passes: the plain twin of run_progressive(). Pass i has the radius
-/// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$; variance then
-/// falls with \f$ n^{-\alpha} \f$, and squared bias with \f$ n^{-2(1-\alpha)} \f$.
+/// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$. After n passes
+/// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and its squared
+/// bias to \f$ n^{-2(1-\alpha)} \f$.
 /// \param passes  n, at least 1.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
 /// \param alpha   In (0, 1]; with 1 the radius is constant.
-/// \return The mean, summed in double.
+/// \return The mean of the passes, summed in double.
 /// \cite knaus2011
 // [plain]
 template <typename RenderPass>
 [[nodiscard]] ImageT<double> progressive_mean(long long passes, RenderPass&& pass,
                                               double alpha = 2.0 / 3) {
     ImageT<double> mean;
-    double shrink = 1; // of the radius, squared
+    double shrink = 1; // squared factor of the radius
     for (long long i = 1; i <= passes; ++i) {
         const auto image = pass(i, std::sqrt(shrink)).image;
         if (i == 1) mean = make_image<double>(image.width, image.height);
@@ -67,8 +68,8 @@ template <std::floating_point T>
     return means;
 }
 
-/// Updates the sums of squared deviations from the mean by one value (Welford).
-/// \param sum      The sum of the n earlier values.
+/// Adds a picture to the sums of squared deviations from the mean, by Welford's method.
+/// \param sum      The sum of the n earlier pictures.
 template <std::floating_point T>
 void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<double>& sum,
                  double n) {
@@ -79,7 +80,7 @@ void add_squares(ImageT<double>& squares, const ImageT<T>& x, const ImageT<doubl
     }
 }
 
-/// The root mean square of the standard errors of means.
+/// The standard error of a mean of n pictures, as a root mean square over all pixels.
 [[nodiscard]] inline double standard_error(const ImageT<double>& squares, double n) {
     double sum = 0;
     for (const RgbT<double>& s : squares.pixels) sum += (s.x + s.y + s.z) / 3;
@@ -101,16 +102,19 @@ template <std::floating_point T>
 /// passes. It is plain data; alpha and the side of blocks may be set before the first
 /// pass.
 struct ProgressiveState {
-    double alpha = 2.0 / 3;         ///< In (0, 1]; see progressive_mean().
-    int block_side = 8;             ///< Pixels; errors of neighbours are correlated.
+    double alpha = 2.0 / 3; ///< In (0, 1]; see progressive_mean().
+    /// Side of a block in pixels. The mean of a block gets an error of its own, because
+    /// the errors of neighbouring pixels are correlated.
+    int block_side = 8;
     double shrink = 1;              ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
-    long long passes = 0;           ///< Passes in the sums.
+    long long passes = 0;           ///< Number of passes in the sums.
     std::uint64_t first_pass = 0;   ///< Hash of the first pass's picture.
     ImageT<double> sum{};           ///< Sum of the passes, W/(m^2 sr).
-    ImageT<double> squares{};       ///< Squared deviations from the mean.
-    ImageT<double> block_squares{}; ///< The same for the means of blocks.
-    std::string picture{}; ///< What the passes are of, in words of the program's own: a
-        ///< checkpoint keeps it, and a program that resumes compares.
+    ImageT<double> squares{};       ///< Sum of squared deviations from the mean.
+    ImageT<double> block_squares{}; ///< The same sum for the means of blocks.
+    /// A description of the picture in the program's own words. A checkpoint keeps the
+    /// description, and a program that resumes compares it with its own.
+    std::string picture{};
 };
 
 /// The standard error of the mean of the passes.
@@ -123,13 +127,14 @@ struct ProgressiveState {
 /// for alpha = 2/3. The estimate **does not contain the bias itself**, because all
 /// passes are blurred alike.
 struct ProgressiveError {
-    double pixels = 0; ///< Error of a pixel: root mean square over all pixels.
-    double blocks = 0; ///< Error of a block's mean, with the correlation of its pixels.
+    double pixels = 0; ///< Standard error of a pixel: root mean square over all pixels.
+    double blocks = 0; ///< Standard error of a block's mean, which includes the
+                       ///< correlation of its pixels.
 };
 
 /// Adds a pass to the sums, and shrinks the radius of the next.
 /// \param state  The earlier passes.
-/// \param image  The pass; every channel finite.
+/// \param image  The picture of the pass; every channel is finite.
 /// \throws std::invalid_argument  if alpha is not in (0, 1], the side of blocks is
 ///         below 1, or the picture differs in size from the first or contains a NaN.
 // [add_pass]
@@ -201,12 +206,12 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 }
 // [run]
 
-/// Refuses to continue the passes of another picture. It renders the first pass again
-/// and compares all bits: these depend on the world, camera, settings, seed, program
-/// and machine.
+/// Checks that the passes so far belong to the picture that is to be continued. The
+/// first pass is rendered again, and all bits are compared. They depend on the world,
+/// camera, settings, seed, program and machine.
 /// \param state  The state of a checkpoint.
 /// \param pass   The pass that will continue.
-/// \throws std::invalid_argument  if its first pass differs.
+/// \throws std::invalid_argument  if the first pass differs.
 /// \cost One pass.
 template <typename RenderPass>
 void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
@@ -220,7 +225,7 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
 
 /// The settings of a mapper with all automatic choices made, for further passes: radii
 /// of 0 are replaced, and a pilot pass has set the shares of a budget.
-/// \param first  Has the photons of one pass; its remarks hold for all.
+/// \param first  The mapper of the first pass.
 /// \return The settings, the same in every run of the program.
 template <AnyWorld W, typename... X>
 [[nodiscard]] PhotonMappingSettings
@@ -234,7 +239,8 @@ settings_for_passes(const PhotonMapper<W, X...>& first) {
     return chosen;
 }
 
-/// The same for a world and the settings of a first pass.
+/// The settings for further passes, from the settings of the first pass. Photons are
+/// traced once to make the automatic choices.
 /// \param world, settings, listed  As for a PhotonMapper.
 /// \throws std::invalid_argument  if a setting is out of range.
 /// \cost The photon maps of one pass.
@@ -255,9 +261,9 @@ settings_for_passes(const W& world, const PhotonMappingSettings& settings,
 /// interpolation blurs it by the same amount in every pass.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
-/// \param settings  Photons *of one pass*; the radii of the first, above 0.
+/// \param settings  Photons *of one pass*, and the radii of the first pass, above 0.
 /// \param picture   Size; rays per pixel in one pass.
-/// \param pass      Its number, from 1.
+/// \param pass      The number of the pass, from 1.
 /// \param scale     Factor of the radii, in (0, 1].
 /// \param listed     As for a PhotonMapper; StratifiedStream for several rays per
 ///                   pixel.

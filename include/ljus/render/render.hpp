@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/render.hpp
-/// \brief The pixel loop.
+/// \brief Renders pictures: the loop over pixels.
 
 #include <algorithm>
 #include <optional>
@@ -18,18 +18,19 @@
 namespace ljus {
 
 /// \defgroup render Rendering
-/// \brief Section 3.2: "in order to render an image, primary rays are cast into the
-/// scene".
+/// \brief The loop over the pixels of a picture: "in order to render an image, primary
+/// rays are cast into the scene" (Section 3.2).
 /// \{
 
 /// Size and sampling of a picture.
 struct RenderSettings {
-    int width = 400;        ///< Pixels, at least 1.
-    int height = 400;       ///< Pixels, at least 1.
+    int width = 400;        ///< Width in pixels, at least 1.
+    int height = 400;       ///< Height in pixels, at least 1.
     int samples = 64;       ///< Exact number of primary rays per pixel, at least 1.
     std::uint64_t seed = 1; ///< Seed of the random streams.
     int threads = 0;        ///< Number of threads; 0: all.
-    Progress progress = no_progress; ///< Called with (done, total); false stops.
+    Progress progress = no_progress; ///< Called with (done, total); returns false to
+                                     ///< stop.
     Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.
     Filter filter = Filter::box;                  ///< Weight of each position.
 };
@@ -53,11 +54,11 @@ template <std::floating_point T>
 struct RenderedT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
     Counts counts{};      ///< Cost of the picture.
-    bool complete = true; ///< False if the progress callback stopped it.
+    bool complete = true; ///< False if the progress callback stopped the work.
 };
 
-/// Sets a stream to the start of the numbers of one ray.
-/// \param stream   Any stream has such an overload.
+/// Sets a stream to its first number for one ray.
+/// \param stream   The stream. Every type of stream has an overload of this function.
 /// \param seed     The user's seed.
 /// \param pixel    The pixel's number within the picture.
 /// \param ray      The ray's number within the pixel.
@@ -71,14 +72,14 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// The number of adjacent pixels that are rendered at a time.
+/// The number of adjacent pixels of a row that are rendered together.
 inline constexpr int strip_width = 16;
 
 } // namespace detail
 
 /// The rays of a picture; all pixels share one sampling pattern.
 struct PictureRays {
-    /// \param settings  Size, rays, seed, filter; must outlive this.
+    /// \param settings  Size, rays, seed, filter; must outlive the PictureRays.
     explicit PictureRays(Ref<RenderSettings> settings)
         : picture(settings.get()),
           pattern(make_pattern(picture.sampling, picture.samples)) {}
@@ -91,14 +92,16 @@ struct PictureRays {
 struct PixelRay {
     int x = 0;      ///< Column of its pixel.
     int y = 0;      ///< Row of its pixel.
-    int number = 0; ///< Which of the pixel's rays.
+    int number = 0; ///< Number of the ray within the pixel.
 };
 
 /// The position of one ray in the picture, and its filter weight.
 /// \param rays    The rays of the picture.
 /// \param at      Which ray.
-/// \param stream  Set to the numbers of that ray, after those of its position.
-/// \return The position, from the upper left corner of the picture, and its weight.
+/// \param stream  Set to the random numbers of that ray, of which the position takes
+///                the first.
+/// \return The position in pixels, from the upper left corner of the picture, and its
+///         weight.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] FilterSampleT<T> sample_pixel(const PictureRays& rays, const PixelRay& at,
                                             Stream& stream) {
@@ -117,7 +120,7 @@ template <std::floating_point T, StreamLike Stream>
 /// The result of one ray of a pixel.
 template <std::floating_point T>
 struct PixelSampleT {
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, W/(m^2 sr).
     T weight = T(1);        ///< Filter weight at the ray's position.
 };
 
@@ -127,7 +130,7 @@ struct PixelSampleT {
 /// \param rays      The rays of the picture.
 /// \param at        Which ray.
 /// \param counts    Counts the rays.
-/// \param log       Receives each vertex and each term, without the weight.
+/// \param log       Receives each vertex and each term, without the filter weight.
 /// \param batch     Receives the queries that the renderer delays.
 /// \return Radiance and filter weight.
 // [trace_pixel]
@@ -152,8 +155,8 @@ trace_pixel(const R& renderer, const C& camera, const PictureRays& rays,
 struct PixelRegion {
     int x = 0;      ///< The first column.
     int y = 0;      ///< The first row, from the top.
-    int width = 1;  ///< Pixels, at least 1.
-    int height = 1; ///< Pixels, at least 1.
+    int width = 1;  ///< Width in pixels, at least 1.
+    int height = 1; ///< Height in pixels, at least 1.
 };
 
 /// Renders a part of a picture by several threads, for example one caustic of a large
@@ -165,12 +168,12 @@ struct PixelRegion {
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
-/// \param region    Within the picture.
+/// \param region    A rectangle within the picture.
 /// \return A picture of the region alone. A sample that is not finite is left out and
 ///         counted.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
 ///         region reaches out of the picture.
-/// \cost That of all strips of 16 pixels that the region touches.
+/// \cost The cost of all strips of 16 pixels that the region touches.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
@@ -229,8 +232,8 @@ render_region(const R& renderer, const C& camera, const RenderSettings& picture,
 
 /// A range of rows of a picture, counted from the top: first <= y < last.
 struct RowRange {
-    int first = 0; ///< The first one.
-    int last = 0;  ///< One past the last one.
+    int first = 0; ///< The first row.
+    int last = 0;  ///< One past the last row.
 };
 
 /// Renders some rows of a picture by several threads, for example on one of several

@@ -11,12 +11,13 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// PhotonMappingSettings::skip: `abilities<Skipping>`.
+/// The ability that PhotonMappingSettings::skip needs; it is listed as
+/// `abilities<Skipping>`.
 struct Skipping {
-    /// Its state.
+    /// The data that a mapper keeps for skipping.
     template <std::floating_point T>
     struct State {
-        VerdictGridT<T> verdicts{}; ///< Rays to omit; empty unless requested.
+        VerdictGridT<T> verdicts{}; ///< Which rays to omit; empty unless requested.
     };
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/render/vertex_merging.hpp
-/// \brief Vertex connection and merging: paths from the eye and from the lights, joined
-/// in four ways, each weighted by how likely it is to find a path.
+/// \brief Vertex connection and merging: paths from the eye and from the lights are
+/// joined in four ways, which share the light by MIS weights.
 
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/path_log.hpp"
@@ -22,17 +22,19 @@ namespace ljus {
 /// | connection | a path with a bounce| by a ray to one of its vertices               |
 /// | merging    | a path with a bounce| a vertex lies within the radius, as a photon  |
 ///
-/// Of light that several of them can find each gets a share, by the balance heuristic.
-/// With radius 0 the renderer is bidirectional path tracing, which has no bias.
+/// Light that several of these methods can find is shared among them by the balance
+/// heuristic. With radius 0 the renderer is bidirectional path tracing, which has no
+/// bias.
 /// \{
 
-/// Light paths of a world, which must outlive them, and their joints with camera paths:
+/// A renderer that traces light paths in its constructor and joins them to camera
+/// paths. The world must outlive it:
 ///
 ///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
 ///
-/// Suns, skies and moving shapes are refused. What it does not carry: the absorption of
-/// an outer body where a joining ray leaves an inner one through rough glass; and the
-/// light of photons that smooth meshes absorb at grazing angles.
+/// Suns, skies and moving shapes are refused. The renderer leaves out two effects: the
+/// absorption of an outer body where a joining ray leaves an inner one through rough
+/// glass, and the light of photons that smooth meshes absorb at grazing angles.
 template <typename W>
 class VertexMerger {
 public:
@@ -46,7 +48,7 @@ public:
     explicit VertexMerger(WorldRef<W> world, const LightPathSettings& settings = {})
         : world_(world), settings_(settings),
           lights_(trace_light_paths(world.get(), settings)) {}
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// Number of paths, radius, limits.
     [[nodiscard]] const LightPathSettings& settings() const noexcept {
@@ -70,15 +72,15 @@ namespace detail {
 template <std::floating_point T, Material M>
 struct CameraVertex {
     const VertexT<T>& at;          ///< The vertex.
-    const M& material;             ///< Its material.
-    const SubpathWeights& weights; ///< At the vertex.
-    int depth;                     ///< Surfaces from the eye to here.
+    const M& material;             ///< The material of the vertex.
+    const SubpathWeights& weights; ///< MIS weights at the vertex.
+    int depth;                     ///< Number of surfaces from the eye to the vertex.
 };
 template <std::floating_point T, Material M>
 CameraVertex(const VertexT<T>&, const M&, const SubpathWeights&, int)
     -> CameraVertex<T, M>;
 
-/// Radiance of a lamp that the camera path hits, times the weight.
+/// The radiance of a lamp that the camera path hits, times its MIS weight.
 // [emission]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> hit_lamp(const VertexMerger<W>& merger, const PathStateT<T>& path,
@@ -93,7 +95,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [emission]
 
-/// Light of one light, by a shadow ray, times the weight.
+/// The radiance that a camera vertex reflects from one light, found by a shadow ray,
+/// times its MIS weight.
 // [shadow ray]
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> ask_light(const VertexMerger<W>& merger,
@@ -145,15 +148,16 @@ template <AnyWorld W, std::floating_point T, Material M>
         others(x.weights, there.pdf * here.cosine / d2, here.back, merging);
     const RgbT<T> medium =
         medium_beyond(x.at.medium, x.material, x.at.wo, to_local(x.at.frame, wi));
-    // The flux is a fraction 1/N, but one path of N is asked.
+    // Each of N light paths carries 1/N of the flux, but only one path is connected.
     const double factor = double(merger.settings().paths) * weight_against(sum);
     return here.f * there.f * y.flux * visible * transmittance(medium, distance) *
            (here.shading * T(there.cosine / d2 * factor));
 }
 // [connection]
 
-/// Light of the photons around a vertex, each times its weight.
-/// \param add  Receives letters and radiance.
+/// The radiance that a camera vertex reflects from the light vertices within the
+/// radius, each times its MIS weight.
+/// \param add  Called with the letters of a light path and the radiance.
 // [merging]
 template <AnyWorld W, std::floating_point T, Material M, typename Add>
 void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& counts,
@@ -238,13 +242,13 @@ template <AnyWorld W, std::floating_point T, typename Context>
 }
 // [radiance]
 
-/// One pass with light paths and camera rays of its own, for progressive_mean() and
-/// run_progressive(): then the radius shrinks, and the bias with it.
+/// One pass with its own light paths and camera rays, for progressive_mean() and
+/// run_progressive(). From pass to pass the radius shrinks, and with it the bias.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
-/// \param settings  Light paths *of one pass*; the radius of the first.
+/// \param settings  Light paths *of one pass*, and the radius of the first pass.
 /// \param picture   Size; rays per pixel in one pass.
-/// \param pass      Its number, from 1.
+/// \param pass      The number of the pass, from 1.
 /// \param scale     Factor of the radius, in (0, 1].
 /// \return The picture; not complete if a progress callback stopped it.
 template <AnyWorld W, CameraLike C>

@@ -10,22 +10,22 @@
 namespace ljus {
 
 /// \defgroup whitted Whitted's ray tracing
-/// \brief Section 2.1: "trace both refractive, reflective and shadow rays", after
-/// Whitted \cite whitted1980. Chapter: \ref ch_whitted.
+/// \brief A tree of reflected, refracted and shadow rays (Section 2.1), after Whitted
+/// \cite whitted1980. Chapter: \ref ch_whitted.
 ///
-/// In Heckbert's notation it finds the paths L D? S* E, with one point of each light.
-/// It finds no diffuse interreflection L D D E and no caustics L S D E.
+/// In Heckbert's notation this renderer finds the paths L D? S* E, with one point of
+/// each light. It finds no diffuse interreflection L D D E and no caustics L S D E.
 /// \{
 
 /// How a tree is traced.
 struct WhittedSettings {
-    int max_depth = 5; ///< Reflections and refractions in a row, 0 to 1000; each is a
-                       ///< recursive call.
-    bool split_glass =
-        true;          ///< Whether glass sends both rays, or one chosen at random.
-    bool lamps = true; ///< Whether lamps with a size light from their centres.
-    Rgb ambient{0};    ///< W/(m^2 sr) from all directions at every diffuse surface, for
-                       ///< the light that the tree does not find.
+    int max_depth = 5; ///< Largest number of reflections and refractions in a row, 0 to
+                       ///< 1000; each is a recursive call.
+    bool split_glass = true; ///< Whether both rays continue at glass, or one at random.
+    bool lamps = true; ///< Whether lamps with a size send light, from their centres.
+    /// Ambient radiance, W/(m^2 sr), from all directions at every diffuse surface: a
+    /// substitute for the light that the tree does not find.
+    Rgb ambient{0};
 };
 
 /// Whitted's ray tracer of a world, which must outlive it.
@@ -43,7 +43,7 @@ public:
                 static_cast<long long>(settings.max_depth), "within [0, 1000]");
         require_radiance("whitted.ambient", settings.ambient);
     }
-    /// What is rendered.
+    /// The world that is rendered.
     [[nodiscard]] const W& world() const noexcept { return world_.get(); }
     /// How a tree is traced.
     [[nodiscard]] const WhittedSettings& settings() const noexcept { return settings_; }
@@ -80,7 +80,8 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
             direct_light(world, light, vertex, material, u, MisT<T>{}, counts));
     }
     if (tracer.settings().ambient == Rgb{0}) return;
-    // As if it all arrived along the normal; at a matt surface, albedo times radiance.
+    // As if all ambient light arrived along the normal. At a matt surface this gives
+    // the albedo times the ambient radiance.
     const Vec3T<T> normal{T(0), T(0), std::copysign(T(1), vertex.wo.z)};
     add("ambient", "D",
         std::numbers::pi_v<T> * evaluate(material, vertex.wo, normal) *
@@ -88,9 +89,9 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
 }
 // [local light]
 
-/// Traces one branch of the tree with all branches that it splits into.
+/// Traces one branch of the tree, and all branches that split off from it.
 /// \param context  The random stream; counts rays, logs terms.
-/// \param sum      Radiance is added to it.
+/// \param sum      The sum to which the radiance is added.
 /// \report{Section 2.1}
 // [trace_branch]
 template <AnyWorld W, std::floating_point T, typename Context>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/byte_reader.hpp
-/// \brief Reads the bytes of an image file; for pfm.hpp and hdr.hpp.
+/// \brief Reads the bytes of an image file, for pfm.hpp and hdr.hpp.
 
 #include <cstddef>
 #include <string>
@@ -26,7 +26,7 @@ struct ByteReader {
         return bytes[position++];
     }
 
-    // The next word, and the white space after it.
+    // Reads the next word, and one character of white space after it.
     std::string word() {
         std::string text;
         char c = to_char(next());
@@ -38,7 +38,7 @@ struct ByteReader {
         return text;
     }
 
-    // The last word of a line, whose end is skipped.
+    // Reads a line to its end; returns it without blanks at both ends.
     std::string last_word() {
         std::string text = line();
         text.erase(0, text.find_first_not_of(" \t"));
@@ -46,7 +46,7 @@ struct ByteReader {
         return text;
     }
 
-    // The characters up to the end of the line, which is skipped.
+    // Reads a line; returns it without its end.
     std::string line() {
         std::string text;
         for (char c = to_char(next()); c != '\n'; c = to_char(next())) {
@@ -58,12 +58,12 @@ struct ByteReader {
         return text;
     }
 
-    // Skips white space between the header and the last `expected` bytes.
+    // Skips white space until `expected` bytes are left.
     void skip_blanks(std::size_t expected) noexcept {
         while (left() > expected && is_space(to_char(bytes[position]))) ++position;
     }
 
-    // A width or height, from a word of the header.
+    // The width or height that a word of the header gives.
     int size(const std::string& text) const {
         long long value = 0;
         for (const char c : text)

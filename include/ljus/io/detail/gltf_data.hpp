@@ -17,11 +17,11 @@ namespace ljus::detail {
 // The largest size of all buffers, in bytes.
 inline constexpr std::size_t max_gltf_bytes = std::size_t(1) << 30;
 
-// The largest number of elements of accessors that a file makes its reader read, and of
-// an accessor without bytes, whose elements are 0.
+// The largest number of accessor elements that are read for one file, and the largest
+// number of elements of an accessor without bytes, which are all 0.
 inline constexpr long long max_gltf_elements = 1LL << 25, max_gltf_zeros = 1LL << 20;
 
-// The bytes of a text in base64; blanks and = count for nothing.
+// The bytes of a text in base64. Blanks and = are ignored.
 inline Bytes from_base64(std::string_view text, const JsonField& field) {
     Bytes bytes;
     std::uint32_t bits = 0;
@@ -44,7 +44,7 @@ inline Bytes from_base64(std::string_view text, const JsonField& field) {
     return bytes;
 }
 
-// The path that a URI means, with blanks and others written as %20.
+// The path that a URI means, in which %20 stands for a blank.
 inline std::string path_of_uri(const JsonField& field) {
     const std::string& uri = text(field);
     if (uri.find("://") != uri.npos)
@@ -66,7 +66,7 @@ inline std::string path_of_uri(const JsonField& field) {
     return path_beside(field.file, name);
 }
 
-// The file: its JSON, and the bytes behind it in a .glb.
+// A glTF file: its JSON and, in a .glb file, the bytes that follow.
 struct GltfFile {
     const std::string& name;
     nlohmann::json json{};
@@ -114,7 +114,7 @@ struct GltfFile {
     }
 
     [[nodiscard]] JsonField root() const { return {json, name, json}; }
-    // The entry of one of the file's lists that a number means.
+    // Reads a number that must be an index into the list of this name in the file.
     [[nodiscard]] std::size_t number_in(const JsonField& field,
                                         const char* list) const {
         const auto all = find(root(), list);
@@ -136,12 +136,12 @@ inline std::size_t size_field(const JsonField& field, std::string_view name) {
     return found ? static_cast<std::size_t>(whole_number(*found, 0, 1LL << 40)) : 0;
 }
 
-// The numbers of a file.
+// Reads the buffers, views and accessors of a file.
 class GltfData {
 public:
     explicit GltfData(const GltfFile& file) : file_(file) {}
 
-    // The bytes of a view, or of a URI that holds them itself.
+    // The bytes of a buffer view.
     std::string_view view(const JsonField& field) {
         const JsonField is = file_.named(field, "bufferViews");
         const JsonField buffer = member(is, "buffer");
@@ -155,7 +155,7 @@ public:
                              std::to_string(bytes.size())}));
         return bytes.substr(from, size);
     }
-    // The bytes of a picture or a buffer that has a URI.
+    // The bytes to which a URI refers: those of a file, or data within the URI.
     Bytes bytes_of(const JsonField& uri, std::size_t most) {
         const std::string& is = text(uri);
         if (!is.starts_with("data:")) return load_file(path_of_uri(uri), most);
@@ -165,9 +165,9 @@ public:
         return from_base64(std::string_view(is).substr(comma + 1), uri);
     }
 
-    // The numbers of an accessor, element by element. Normalized ones are fractions.
-    // `types` are the sizes of its elements that are allowed, of 1 to 4 numbers;
-    // `size` gets that which it has.
+    // The numbers of an accessor, element by element; normalized integers become
+    // fractions. `types` are the allowed types of an element. `size` receives the count
+    // of numbers in an element.
     std::vector<double> numbers(const JsonField& field,
                                 std::initializer_list<std::string_view> types,
                                 std::size_t& size) {
@@ -236,7 +236,8 @@ private:
         return is.kind == 'i' ? std::max(value / (range / 2 - 1), -1.0)
                               : value / (range - 1);
     }
-    // Reads the numbers of `count` elements at the byteOffset of `is` in a view.
+    // Reads `count` elements from the view `in`, from the byteOffset of `is` on, and
+    // calls use(number) for each number.
     template <typename Use>
     void read(const JsonField& is, const JsonField& in, const Component& component,
               std::size_t count, std::size_t size, std::size_t stride, Use use) {
@@ -309,7 +310,7 @@ private:
     const GltfFile& file_;
     std::map<std::size_t, Bytes> buffers_{};
     std::size_t held_ = 0;   // bytes of all buffers
-    long long elements_ = 0; // that were read
+    long long elements_ = 0; // elements read so far
 };
 
 } // namespace ljus::detail

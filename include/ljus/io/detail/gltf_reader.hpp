@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/gltf_reader.hpp
-/// \brief How load_gltf() reads: the nodes of a scene, with what they carry.
+/// \brief The reader of load_gltf(): it walks through the nodes of a scene and reads
+/// their meshes, cameras and lights.
 
 #include <numbers>
 #include <optional>
@@ -18,13 +19,13 @@
 
 namespace ljus::detail {
 
-// The largest number of triangles, as often as nodes place them.
+// The largest number of triangles; a mesh counts once for each node that places it.
 inline constexpr long long max_gltf_triangles = 1LL << 23;
 
-// The largest number of primitives, as often as nodes place them.
+// The largest number of primitives, counted in the same way.
 inline constexpr long long max_gltf_primitives = 1LL << 20;
 
-// The steps of a roughness that comes from a picture.
+// A roughness from a picture is rounded to a multiple of 1 over this number.
 inline constexpr int roughness_steps = 8;
 
 template <std::floating_point T>
@@ -63,23 +64,23 @@ public:
     }
 
 private:
-    // A material of the file, perhaps a metal or a roughness of its picture.
+    // A material of the file, with the metal and the roughness that its picture gives.
     using Key = std::tuple<std::size_t, bool, int>;
     struct Made {
         std::uint32_t number;
         MeshMaterial material;
     };
-    // What the triangles of a primitive are made of.
+    // The material of the triangles of a primitive.
     struct Surface {
         std::optional<JsonField> material{};
         std::size_t number = 0;
         double metal = 1, roughness = 1;
         const ImageT<T>* picture = nullptr; // of metal and roughness
-        std::vector<double> uv{};           // for it
+        std::vector<double> uv{};           // uv for it
     };
 
-    // Notes something about a part of the file. There are not many notes, because the
-    // path of a part is looked for in the whole file.
+    // Adds a note about a part of the file to the report. The number of notes is
+    // limited, because finding the path of a part takes a search of the whole file.
     void note(const JsonField& field, std::string_view what) {
         constexpr std::size_t most = 100;
         std::vector<std::string>& notes = mesh_.report.notes;
@@ -92,7 +93,7 @@ private:
                   "."}));
     }
 
-    // Nobody types the name of an extension: what helps is how to do without it.
+    // Refuses an unknown extension, and says how to export the file without it.
     void require_known(const JsonField& required, JsonNames known) {
         const std::string& name = text(required);
         if (std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -118,7 +119,7 @@ private:
         const auto required = find(file_.root(), "extensionsRequired");
         for (std::size_t i = 0; required && i < list_size(*required); ++i)
             require_known(entry(*required, i), known);
-        // Those of materials are said there.
+        // read_material() notes the extensions of materials.
         const auto used = find(file_.root(), "extensionsUsed");
         for (std::size_t i = 0; used && i < list_size(*used); ++i) {
             const JsonField name = entry(*used, i);
@@ -130,7 +131,8 @@ private:
         }
     }
 
-    // The nodes with which a scene begins; without scenes, those of no other node.
+    // The top nodes of the scene; in a file without scenes, the nodes that are no
+    // children.
     std::vector<std::size_t> roots() const {
         const JsonField root = file_.root();
         std::vector<std::size_t> found;
@@ -160,7 +162,7 @@ private:
             found.push_back(file_.number_in(entry(*children, i), "nodes"));
         return found;
     }
-    // A node and all below it, with a list in place of recursion.
+    // Reads a node and all nodes below it, without recursion.
     void read_tree(std::size_t root) {
         std::vector<std::pair<std::size_t, glm::dmat4>> open{{root, glm::dmat4(1)}};
         while (!open.empty()) {
@@ -219,7 +221,7 @@ private:
             if (!(length > 0)) refuse_value(*field, "a quaternion that is not 0");
             const glm::dvec3 axis = glm::dvec3(q[0], q[1], q[2]) / length;
             for (int i = 0; i < 3; ++i) {
-                glm::dvec3 unit(0); // turned by v + 2 w (a x v) + 2 a x (a x v)
+                glm::dvec3 unit(0); // rotation of v: v + 2 w (a x v) + 2 a x (a x v)
                 unit[i] = 1;
                 const glm::dvec3 twice = 2.0 * glm::cross(axis, unit);
                 matrix[i] = {unit + q[3] / length * twice + glm::cross(axis, twice), 0};
@@ -258,7 +260,7 @@ private:
         const JsonField attributes = member(field, "attributes");
         if (!find(attributes, "POSITION"))
             return note(field, "has no POSITION; it is left out");
-        // Where a file offers both, the accessors have a bufferView.
+        // A file that offers uncompressed data as well has accessors with a bufferView.
         if (const auto all = find(field, "extensions");
             all && find(*all, "KHR_draco_mesh_compression") &&
             !find(file_.named(member(attributes, "POSITION"), "accessors"),
@@ -337,7 +339,8 @@ private:
         }
         if (const auto normals = find(attributes, "NORMAL")) {
             const std::vector<double> n = attribute(*normals, {"VEC3"}, count, size);
-            // The inverse transpose without its division, which a flat scale lacks.
+            // The inverse transpose times the determinant, which exists even for a
+            // scale of 0.
             const glm::dmat3 m(place);
             const double side = glm::determinant(m) < 0 ? -1 : 1;
             const glm::dmat3 turn(side * glm::cross(m[1], m[2]),
@@ -360,7 +363,7 @@ private:
         return values;
     }
 
-    // The texture coordinates that a texture of a material uses.
+    // The texture coordinates that a texture uses.
     std::vector<double> uv_of(const JsonField& texture, const JsonField& attributes,
                               std::size_t count) {
         const auto set = find(texture, "texCoord");
@@ -390,7 +393,7 @@ private:
                 }
             }
         }
-        // Without a picture those of the first set are kept for the user's own.
+        // Without a picture the first set is kept, for pictures that a user may add.
         const std::vector<double> uv =
             uv_of(colors ? *colors : primitive, attributes, count);
         for (std::size_t i = 0; i < uv.size() / 2; ++i)
@@ -412,8 +415,8 @@ private:
         pictures_.try_emplace(name, number);
         return name;
     }
-    // How a texture lies: by its sampler, and by KHR_texture_transform, whose v goes
-    // down. Returns false if a part of it is not used.
+    // Reads how a texture is looked up: its sampler, and its KHR_texture_transform,
+    // where v increases downwards. Returns false if a part of them is ignored.
     bool read_lookup(const JsonField& texture, MeshMaterial& to) {
         bool whole = true;
         const JsonField is = file_.named(member(texture, "index"), "textures");
@@ -455,7 +458,8 @@ private:
             .offset{offset.x + turn.y * scale.y, 1 - turn.x * scale.y - offset.y}};
         return whole && !find(*transform, "texCoord");
     }
-    // The normal map and the holes of a material, after its base colour.
+    // Reads the normal map and the holes of a material, whose base colour is already
+    // read.
     void read_details(const JsonField& field, double alpha, MeshMaterial& material,
                       std::vector<std::string>& unused) {
         const auto texture = find(field, "normalTexture");
@@ -495,8 +499,8 @@ private:
             !(material.mask.name.empty() && material.normals.name.empty()))
             unused.push_back("holes and normals of what glows");
     }
-    // The picture of metal (blue) and roughness (green); nullptr if it is none. All of
-    // them are limited together.
+    // The picture of metal (blue) and roughness (green); nullptr if it cannot be read.
+    // The pixels of all such pictures together are limited.
     const ImageT<T>* metal_picture(const JsonField& texture) {
         const std::string name = picture_of(texture);
         const auto [known, fresh] = metal_pictures_.try_emplace(name);
@@ -510,7 +514,7 @@ private:
         }
         return known->second.pixels.empty() ? nullptr : &known->second;
     }
-    // The number of the material of a triangle.
+    // The number of the material of a triangle, by the corners of the triangle.
     std::uint32_t material_at(const Surface& surface,
                               const std::array<std::size_t, 3>& vertex) {
         if (!surface.material) return 0;
@@ -554,7 +558,7 @@ private:
         return pixel(image, at(uv.x, image.width), at(uv.y, image.height));
     }
 
-    // The name of an object, which may be missing.
+    // The name of a part of the file; empty if it has none.
     [[nodiscard]] static std::string name_of(const JsonField& field) {
         const auto name = find(field, "name");
         return name ? text(*name) : std::string();
@@ -656,7 +660,7 @@ private:
             glm::clamp(vector_of(field, "color", glm::dvec3(1)), 0.0, 1e12) *
             number_of(field, "intensity", 1, 0, 1e12);
         const double scale = settings_.scale;
-        const RgbT<T> intensity(scale * scale * light); // at distances that scale too
+        const RgbT<T> intensity(scale * scale * light); // because distances scale too
         const Vec3T<T> at(scale * glm::dvec3(place[3]));
         const Vec3T<T> way(-glm::normalize(glm::dvec3(place[2])));
         const auto add = [&](auto made, auto& list) {

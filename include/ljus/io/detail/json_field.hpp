@@ -24,12 +24,12 @@ namespace ljus::detail {
 struct JsonField {
     const nlohmann::json& value;
     const std::string& file;    // the name of the file, for messages
-    const nlohmann::json& root; // all of the file
+    const nlohmann::json& root; // the whole file
 };
 
-// A value in a message.
+// A value as a message shows it.
 [[nodiscard]] inline std::string shown_value(const nlohmann::json& value) {
-    // Large values are not printed in full first.
+    // A large value is described, not printed.
     if (value.is_object()) return "an object";
     if (value.is_array() && value.size() > 4)
         return std::string("a list of ").append(std::to_string(value.size())) +
@@ -39,7 +39,7 @@ struct JsonField {
     return shown(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-// The path of a member: with a dot, or in brackets if its name is not a plain word.
+// The path of a member, such as "a.b", or "a["b c"]" if its name is not a plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
                                                 std::string_view name) {
     bool plain = !name.empty() && name.size() <= 48;
@@ -52,8 +52,9 @@ struct JsonField {
     return path.append(name);
 }
 
-// The path of a value within another one, whose own is `path`; nothing if it is not
-// there. It is looked for when a message names it, so that reading makes no paths.
+// The path of a value within `whole`, whose own path is `path`; nothing if the value is
+// not there. Paths are searched for when a message needs one; they are not kept while
+// reading.
 [[nodiscard]] inline std::optional<std::string>
 path_within(const nlohmann::json& whole, const nlohmann::json& value,
             const std::string& path = "") {
@@ -92,7 +93,7 @@ path_within(const nlohmann::json& whole, const nlohmann::json& value,
                       .append(right));
 }
 
-// Throws an error about a field with the sentence of another exception.
+// Throws an error about a field. The reason is the text of another exception.
 [[noreturn]] inline void refuse_for(const JsonField& field,
                                     const std::exception& error) {
     std::string why = std::string("cannot be used: ").append(error.what());
@@ -100,8 +101,8 @@ path_within(const nlohmann::json& whole, const nlohmann::json& value,
     refuse(field, why);
 }
 
-// The result of a call. Its errors, for instance a number that T cannot hold, are
-// reported for the field.
+// The result of a call. If it throws std::invalid_argument, for instance because T
+// cannot hold a number, the error is reported for the field.
 template <typename Call>
 auto made_of(const JsonField& field, Call call) {
     try {
@@ -111,7 +112,7 @@ auto made_of(const JsonField& field, Call call) {
     }
 }
 
-// A list of names: "a, b or c". At most `most` names are shown.
+// A list of at most `most` names, such as "a, b or c", where `last` is "or".
 [[nodiscard]] inline std::string in_a_row(const std::vector<std::string>& names,
                                           std::string_view last,
                                           std::size_t most = 12) {
@@ -127,7 +128,7 @@ auto made_of(const JsonField& field, Call call) {
     return count < names.size() ? row.append(", ...") : row;
 }
 
-// Names as messages list them.
+// Names in the order in which messages list them.
 using JsonNames = std::span<const std::string_view>;
 
 [[nodiscard]] inline const std::string& text(const JsonField& field) {
@@ -135,8 +136,8 @@ using JsonNames = std::span<const std::string_view>;
     return field.value.get_ref<const std::string&>();
 }
 
-// Throws an error about a word that is none of those that are known here, and proposes
-// the nearest one: "objects[3].radios is not known; did you mean radius? The ...".
+// Throws an error about an unknown name of a field, and proposes the nearest known
+// name: "objects[3].radios is not known; did you mean radius? The ...".
 [[noreturn]] inline void refuse_name(const JsonField& field, std::string_view name,
                                      const std::vector<std::string>& known) {
     const std::string near = nearest_word(name, known);
@@ -145,7 +146,8 @@ using JsonNames = std::span<const std::string_view>;
                                : join({"is not known; did you mean ", near,
                                        "? The fields here are ", list}));
 }
-// The same about a value that must be one of several words.
+// Throws an error about a value that must be one of several words, and proposes the
+// nearest word.
 [[noreturn]] inline void refuse_word(const JsonField& field,
                                      const std::vector<std::string>& known,
                                      const std::string& right) {
@@ -186,7 +188,7 @@ inline void require_one_of(const JsonField& field, JsonNames names) {
     refuse_word(field, known, in_a_row(known, "or", known.size()));
 }
 
-// A number within [low, high]; `right` says that in words.
+// A number within [low, high]; `right` is the range in words.
 [[nodiscard]] inline double number(const JsonField& field, double low, double high,
                                    std::string_view right) {
     if (!field.value.is_number()) refuse_value(field, "a number");
@@ -207,7 +209,8 @@ inline void require_one_of(const JsonField& field, JsonNames names) {
     return static_cast<long long>(value);
 }
 
-// The path of a file that a scene file names, relative to the scene file.
+// The path of a file that a scene file names. Unless absolute, it is relative to the
+// folder of the scene file.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
     return path_beside(field.file, text(field));
 }

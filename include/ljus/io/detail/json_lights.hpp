@@ -66,7 +66,8 @@ inline constexpr JsonMember gradient_members[]{
     needed("zenith", light_value, "W/(m^2 sr)", "[0.2, 0.4, 1]"),
     needed("ground", light_value, "W/(m^2 sr)", "[0.1, 0.1, 0.1]")};
 
-/// The largest number of goniometric lights in a scene file, and of their intensities.
+/// The largest number of goniometric lights in a scene file, and the largest number of
+/// intensities of all of them together.
 inline constexpr std::size_t max_file_lamps = 1024, max_intensities = 1 << 22;
 
 inline constexpr JsonTable light_tables[]{
@@ -83,8 +84,8 @@ inline constexpr JsonTable light_tables[]{
      "a point whose intensity a maker has measured: ljus::load_ies()",
      goniometric_members}};
 
-// A picture of the sky: exactly one of three fields says how it is made.
-// \param files  What reads meshes; WithExr reads EXR pictures as well.
+// Reads the picture of a sky, which exactly one of three fields describes.
+// \param files  The reader of mesh files; WithExr reads EXR pictures as well.
 template <std::floating_point T, typename Files>
 ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     if (in.has("radiance") + in.has("gradient") + in.has("file") != 1)
@@ -114,7 +115,8 @@ ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     refuse_value(file, "a picture with the ending .hdr, .pfm or .exr");
 }
 
-// The intensities of a lamp beside those of the other lamps of a file.
+// Reads the intensities of a lamp. The intensities of all lamps of a file are limited
+// together.
 template <std::floating_point T>
 IntensityTable read_intensities(const JsonMembersOf& in,
                                 const std::vector<GoniometricLightT<T>>& others) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_materials.hpp
-/// \brief The materials of a scene file: one row per material.
+/// \brief The materials of a scene file, as a table with one row per material.
 
 #include <array>
 #include <map>
@@ -28,15 +28,15 @@
 
 namespace ljus::detail {
 
-/// The largest number of tables for full-glossy and full-rough-metal; each takes some
-/// hundredths of a second.
+/// The largest number of energy loss tables that full-glossy and full-rough-metal may
+/// need; each takes some hundredths of a second.
 inline constexpr std::size_t max_loss_tables = 64;
 
-// What several materials of a file can have in common.
+// Data that the materials of a file share.
 template <std::floating_point T>
 struct SharedByMaterialsT {
     FilePicturesT<T> pictures;
-    std::map<T, EnergyLossT<T>> losses{}; // by the roughness
+    std::map<T, EnergyLossT<T>> losses{}; // by roughness
 };
 
 // Reads the members of a material for the rows below.
@@ -67,7 +67,7 @@ struct MaterialFields {
     GlossyT<T, ConductorIndexT<T>> rough_metal() const {
         return {metal(), value("roughness")};
     }
-    // The same with multiple scattering.
+    // A glossy material with multiple scattering.
     template <typename Facet>
     CompensatedGlossyT<T, Facet> full(const GlossyT<T, Facet>& gloss) const {
         const T rough = gloss.roughness;
@@ -115,7 +115,7 @@ SoapFilmT<T> read_film(const MaterialFields<T>& fields) {
     return film;
 }
 
-// A matt surface of pictures, as that of a mesh file.
+// A matt surface with pictures of colours, normals and holes, as in a mesh file.
 template <std::floating_point T>
 MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
                                           FilePicturesT<T>& pictures) {
@@ -181,8 +181,8 @@ constexpr JsonMember fields_row(std::string_view name, std::string_view text) {
     return preset(name, {JsonKind::whole, 2, 1e6, {}}, 2, text);
 }
 
-// A material's name, its name in C++ if it is another one, its members besides `type`,
-// and its reader.
+// A row of the table: the name of a material, its name in C++ if that differs, a
+// description, its members other than `type`, and the function that reads it.
 template <std::size_t N, typename Read>
 struct MaterialRow {
     std::string_view name, also;
@@ -201,9 +201,9 @@ Textured<LambertianT<T>, Texture> white(Texture texture) {
     return {{.albedo = RgbT<T>{T(1)}}, std::move(texture)};
 }
 
-// The table of materials. The material types of a file's scene, the readers, the names
-// in messages, the page of the book and the JSON schema follow from it, so that a new
-// material needs a new row only.
+// The table of materials. The material types of a scene, the readers, the names in
+// messages, the page of the book and the JSON schema are all made from this table. A
+// new material therefore needs only a new row.
 template <std::floating_point T>
 constexpr auto material_rows() {
     using In = const MaterialFields<T>&;
@@ -343,7 +343,7 @@ constexpr auto material_rows() {
             })};
 }
 
-// The types of the rows, each once: several names may have one type.
+// The material types of the rows. A type that several names share is listed once.
 template <typename... M>
 Materials<M...> listed(TypeList<M...>);
 template <std::floating_point T, typename... Row>

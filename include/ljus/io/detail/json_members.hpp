@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_members.hpp
-/// \brief The tables of what objects of a scene file contain, and their check.
+/// \brief Tables of the members that objects of a scene file may have, and their check.
 
 #include <array>
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace ljus::detail {
 
-// What a value is. Every number in it lies within [low, high].
+// Kinds of values. Every number of a value lies within [low, high].
 enum class JsonKind : std::uint8_t {
     text,      // in quotation marks
     remark,    // a text for people, or null
     word,      // one of `words`
-    number,    // also 0 if low is the least number above 0 that makes sense
+    number,    // a number; see JsonValue::or_zero
     length,    // a number above 0
     whole,     // a whole number
     pair,      // two numbers
@@ -29,34 +29,35 @@ enum class JsonKind : std::uint8_t {
     direction, // three numbers that are not all 0
     scale,     // a number, or three
     object,    // an object with members of its own
-    list,      // a list of such
+    list,      // a list of objects
     named      // an object whose members have any names
 };
 
-// A kind of value. `right` completes "it must be".
+// A kind of value with its limits. The text `right` completes "it must be".
 struct JsonValue {
     JsonKind kind;
     double low = 0, high = 0;
     std::string_view right{};
     JsonNames words{};
     std::string_view of{}; // the name of its table, for an object or a list
-    bool or_zero = false;  // 0 as well
+    bool or_zero = false;  // whether 0 is allowed though it is below `low`
 };
 
-// A member of an object. It is required unless it has a default, `preset`, which counts
-// for each number of a vector, or is `optional`. A word's default is the first.
+// A member of an object. It is required unless it is `optional` or has a default, which
+// is `preset`, for a vector in each component. The default of a word is the first of
+// its words.
 struct JsonMember {
     std::string_view name;
-    std::string_view also; // the name in C++, if it is another one, which is read too
+    std::string_view also; // its name in C++ if that differs; also read
     JsonValue value;
-    std::string_view text;    // what it is, and its unit
+    std::string_view text;    // meaning and unit
     std::string_view example; // JSON; empty: left out of the example
     bool optional = false;
     double preset = std::numeric_limits<double>::quiet_NaN();
 };
 using JsonMembers = std::span<const JsonMember>;
 
-// Nearly all members.
+// Makes a required member.
 constexpr JsonMember needed(std::string_view name, const JsonValue& value,
                             std::string_view text, std::string_view example,
                             std::string_view also = {}) {
@@ -75,7 +76,7 @@ constexpr JsonMember preset(std::string_view name, const JsonValue& value,
 inline constexpr double max_length = 1e9;
 inline constexpr double max_radiance = 1e12;
 
-// Values that several tables have.
+// Kinds of values that several tables use.
 inline constexpr JsonValue text_value{JsonKind::text};
 inline constexpr JsonValue remark_value{JsonKind::remark};
 inline constexpr JsonValue fraction_value{JsonKind::number, 0, 1, "within [0, 1]"};
@@ -181,7 +182,7 @@ public:
                 if (found)
                     check_value(*found, row.value);
                 else if (!row.optional)
-                    (void)member(field_, row.name); // refuses
+                    (void)member(field_, row.name); // throws: the member is missing
             }
     }
 
@@ -189,7 +190,7 @@ public:
     [[nodiscard]] bool has(std::string_view name) const {
         return find(*row_of(name)).has_value();
     }
-    // A member, which must be there.
+    // A member; throws if it is missing.
     [[nodiscard]] JsonField operator[](std::string_view name) const {
         if (const auto found = find(*row_of(name))) return *found;
         return member(field_, name);
@@ -200,7 +201,8 @@ public:
         const auto found = find(row);
         return found ? found->value.get<double>() : row.preset;
     }
-    // A member's three numbers; a single number or a default counts three times.
+    // The three numbers of a member. A single number, or the default, is used three
+    // times.
     [[nodiscard]] glm::dvec3 vector(std::string_view name) const {
         const JsonMember& row = *row_of(name);
         const auto found = find(row);
@@ -209,7 +211,7 @@ public:
         if (value.is_number()) return glm::dvec3(value.get<double>());
         return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
     }
-    // A member's word, or the first of its words.
+    // The word that a member has, or the first of its possible words.
     [[nodiscard]] std::string word(std::string_view name) const {
         const JsonMember& row = *row_of(name);
         const auto found = find(row);
@@ -243,16 +245,17 @@ private:
     std::array<JsonMembers, 2> tables_;
 };
 
-// A kind of object: what its `type` says, or the name of its member.
+// A kind of object. Its name is the value of the object's `type`, or the name of the
+// member that holds the object.
 struct JsonTable {
     std::string_view name;
-    std::string_view also; // its name in C++, if it is another one
+    std::string_view also; // its name in C++ if that differs
     std::string_view text;
     JsonMembers members;
-    JsonNames one_of{}; // members of which it has exactly one
+    JsonNames one_of{}; // members of which an object has exactly one
 };
 
-// The table of this name among several; null if there is none.
+// The table with this name; null if there is none.
 [[nodiscard]] inline const JsonTable* table_of(std::span<const JsonTable> tables,
                                                std::string_view name) {
     for (const JsonTable& table : tables)
@@ -261,7 +264,7 @@ struct JsonTable {
     return nullptr;
 }
 
-// Groups of lamps by name, each with the factor of its light.
+// The groups of lamps by name, each with the factor by which its light is multiplied.
 struct LampGroups {
     std::map<std::string, double> factors{};
 
@@ -271,7 +274,7 @@ struct LampGroups {
             factors[name] =
                 number({value, groups.file, groups.root}, 0, 1e9, "within [0, 1e9]");
     }
-    // The factor for an object or a light, by its member lamp_group; 1 without one.
+    // The factor of an object or a light, by its member lamp_group; 1 if it has none.
     [[nodiscard]] double factor(const JsonMembersOf& in) const {
         if (!in.has("lamp_group")) return 1;
         const JsonField group = in["lamp_group"];

@@ -35,7 +35,7 @@ using FileSceneT = Scene<
            GoniometricLightT<T>>,
     Media<Fog<SphereT<T>>, Fog<BoxT<T>>>>;
 
-/// Reads no meshes: the default of load_json().
+/// The default of load_json() for mesh files: it throws, because nothing reads them.
 template <std::floating_point T>
 struct NoMeshesT {
     [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
@@ -143,7 +143,7 @@ inline constexpr JsonTable object_tables[]{
     {"disc", {}, "a disc", disc_members},
     {"cylinder", {}, "a tube", cylinder_members}};
 
-// The three indices of a triangle.
+// Reads the three indices of a triangle.
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
@@ -167,7 +167,8 @@ inline glm::dvec3 point_of(const JsonField& field) {
             field.value[2].get<double>()};
 }
 
-// The triangles of an object; two that form a parallelogram become a quad.
+// Reads the triangles of an object. Two triangles that form a parallelogram become a
+// quad.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -182,12 +183,13 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-/// Limits for a mesh file that a scene names several times: how often it is read, with
-/// another scale or other normals each time; and the triangles of its unchanged copies.
+/// Limits for a mesh file that a scene names several times: how often it is read, each
+/// time with another scale or other normals; and the number of triangles of all its
+/// unchanged copies.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
-/// The largest number of triangles of all instances together: the area of a stretched
-/// one is a sum over its triangles.
+/// The largest number of triangles of all instances together. It is limited because the
+/// area of a stretched instance is a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
 // How an object names a mesh file, and whether it is made of the file's materials.
@@ -210,20 +212,21 @@ inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
             own_materials};
 }
 
-// What an object is made of.
+// The material and emission of an object.
 template <std::floating_point T>
 struct FileSurfaceT {
     MaterialId material{};
     RgbT<T> emission{T(0)};
 };
 
-// The mesh files of a scene so far. What is named again is copied: from the scene, or
-// from here if it was placed there. What instances place is kept once.
+// The mesh files that a scene has read so far. A file that is named again is not read
+// again: its meshes are copied from the scene or, if a transform has changed those,
+// from `unplaced`. Meshes of instances are kept once.
 template <std::floating_point T>
 struct FileMeshesT {
     struct Reading {
         MeshName named;
-        std::vector<FileSurfaceT<T>> surfaces; // if they are the file's own
+        std::vector<FileSurfaceT<T>> surfaces; // empty without materials of the file
         std::size_t first, last;               // of the meshes in the scene
         std::vector<MeshT<T>> unplaced{};
     };
@@ -233,9 +236,9 @@ struct FileMeshesT {
         std::vector<Ref<MeshT<T>>> meshes{};
     };
     std::map<std::string, std::vector<Reading>> by_path{};
-    std::map<std::string, std::vector<Kept>> kept{}; // by path as well
+    std::map<std::string, std::vector<Kept>> kept{}; // for instances
     std::size_t copied = 0, placed = 0;              // triangles
-    std::size_t pixels = 0;                          // of the files' own pictures
+    std::size_t pixels = 0;                          // of pictures that mesh files name
 };
 
 // Requires that a file may be read once more.
@@ -253,7 +256,7 @@ template <std::floating_point T>
     return MeshT<T>(std::move(data));
 }
 
-// The meshes of a file, and what each is made of if the file's own materials count.
+// The meshes of a file and, if the file's own materials are used, the surface of each.
 template <std::floating_point T>
 struct FilePartsT {
     std::vector<MeshT<T>> meshes{};
@@ -291,9 +294,9 @@ FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
     return parts;
 }
 
-// Adds the meshes of a file: add(mesh, surface), where the surface is null unless it is
-// the file's own.
-// \param is_placed  Whether `add` places them.
+// Adds the meshes of a file by calls of add(mesh, surface). The surface is null unless
+// the file's own materials are used.
+// \param is_placed  Whether `add` applies a transform to the meshes.
 template <std::floating_point T, typename LoadMeshes, typename Add>
 void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
                  LoadMeshes& load_meshes, bool is_placed, Add add) {
@@ -330,7 +333,7 @@ void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& kn
         readings.push_back({named, std::move(parts.surfaces), first, all.size()});
 }
 
-// The meshes of a file, which the scene keeps for instances.
+// Reads the meshes of a file, which the scene keeps for instances.
 template <std::floating_point T, typename LoadMeshes>
 const typename FileMeshesT<T>::Kept&
 read_kept_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
@@ -346,7 +349,7 @@ read_kept_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& kn
     return readings.back();
 }
 
-// A map: the twelve numbers of a matrix of three rows.
+// Reads an affine map: the twelve numbers of a 3 x 4 matrix, row by row.
 template <std::floating_point T>
 AffineT<T> read_place(const JsonField& field) {
     if (list_size(field) != 12)
@@ -359,8 +362,8 @@ AffineT<T> read_place(const JsonField& field) {
     return map;
 }
 
-// Places the meshes of a file once for each map: add(instance, surface), as for
-// read_meshes().
+// Places the meshes of a file once for each map, by calls of add(instance, surface) as
+// in read_meshes().
 template <std::floating_point T, typename LoadMeshes, typename Add>
 void read_instances(const JsonMembersOf& in, const MeshName& named,
                     FileSceneT<T>& scene, FileMeshesT<T>& known,

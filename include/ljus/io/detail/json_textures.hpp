@@ -16,10 +16,10 @@
 
 namespace ljus::detail {
 
-// Any of the maps, chosen when the file is read.
+// A map of one of several types, which is chosen when the file is read.
 template <std::floating_point T>
 struct FileMapT {
-    static constexpr bool uses_uv = true; // the UvMap does
+    static constexpr bool uses_uv = true; // if it holds a UvMap
     std::variant<PlaneMapT<T>, GlobeMapT<T>, UvMapT<T>> map{};
 };
 template <std::floating_point T>
@@ -38,7 +38,7 @@ inline constexpr std::string_view map_words[]{"plane", "globe", "uv"};
 inline constexpr JsonValue repetitions_value{JsonKind::pair, -1e6, 1e6,
                                              "within [-1e6, 1e6]"};
 
-// The members of a texture besides its own: those of its map.
+// The members by which every texture describes its map.
 inline constexpr JsonMember map_members[]{
     preset("map", {.kind = JsonKind::word, .words = map_words}, 0,
            "by a plane, by longitude and latitude around a point, or by the shape's "
@@ -125,12 +125,12 @@ CheckerT<T, FileMapT<T>> read_checker(const JsonMembersOf& in) {
             .rows = static_cast<int>(in.number("rows"))};
 }
 
-// The pictures of a scene file. Each is read once, and kept until its last use. A use
-// has a copy of its own, so that all are limited together.
+// The pictures of a scene file. Each picture is read once and kept until its last use.
+// Every use gets a copy, and the pixels of all copies together are limited.
 template <std::floating_point T>
 struct FilePicturesT {
     struct Picture {
-        int uses = 0; // that are still to come
+        int uses = 0; // uses that are still to come
         ImageT<T> image{};
     };
     std::map<std::string, Picture> by_path{};
@@ -145,7 +145,7 @@ struct FilePicturesT {
     }
     Picture& at(const std::string& path) { return by_path[one_path(path)]; }
 
-    // Another content of a picture than its colours, which is not kept.
+    // Reads the alpha or the numbers of a picture, which are not kept.
     ImageT<T> take(const std::string& path, PictureContent content) {
         ImageT<T> image = load_image<T>(path, pixels, content);
         pixels += static_cast<long long>(image.pixels.size());
@@ -161,7 +161,7 @@ struct FilePicturesT {
                  !why.empty())
             throw std::runtime_error(join({shown_path(path), " ", why, "."}));
         pixels += static_cast<long long>(image.pixels.size());
-        // It is not kept if there is no room for one more.
+        // The picture is not kept if another copy would exceed the limit.
         if (--known.uses > 0 &&
             too_large_beside(pixels, image.width, image.height).empty())
             return image;
@@ -169,7 +169,7 @@ struct FilePicturesT {
     }
 };
 
-// The picture of a file. take(path) reads it.
+// Reads the picture that a field names, by take(path).
 template <typename Take>
 auto picture_of(const JsonField& file, Take take) {
     try {
@@ -185,7 +185,7 @@ ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
                       [&](const std::string& path) { return pictures.take(path); });
 }
 
-// A picture on a map. take(path) reads it.
+// Reads the picture that a field names, by take(path), and puts it on a map.
 template <std::floating_point T, typename Map, typename Take>
 PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
                                    const JsonField& file, Take take) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/mesh_builder.hpp
-/// \brief The faces of a mesh file become meshes; nothing in the file is trusted.
+/// \brief Makes meshes of the faces of a mesh file, every part of which may be wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +20,14 @@
 
 namespace ljus::detail {
 
-// The pixels of a triangle: two by two.
+// The number of pixels that hold the colours of one triangle: two by two.
 inline constexpr std::size_t painted_pixels = 4;
 
 // Paints each triangle into a square of four pixels, and makes the texture coordinates
-// of its corners the centres of three of them. Between pixel centres a picture is
-// interpolated bilinearly; with c1 + c2 - c0 in the fourth pixel that is the linear
-// interpolation between the corners. The corner c0 is the one with which the fourth
-// pixel needs the least clamping to [0, 1].
+// of its corners the centres of three of them. The three pixels hold the colours c0, c1
+// and c2 of the corners, and the fourth holds c1 + c2 - c0. The bilinear interpolation
+// between pixel centres then is the linear interpolation between the corners. As c0,
+// that corner is chosen for which the fourth pixel needs the least clamping to [0, 1].
 template <std::floating_point T>
 ImageT<T> paint_vertices(MeshDataT<T>& data, const std::vector<RgbT<T>>& colors) {
     const std::size_t count = data.triangles.size();
@@ -76,8 +76,8 @@ ImageT<T> paint_vertices(MeshDataT<T>& data, const std::vector<RgbT<T>>& colors)
 /// The largest mesh file, in bytes.
 inline constexpr std::size_t max_mesh_file = std::size_t(1) << 30;
 
-// What the file says of a corner of a face: numbers, from 0, in its lists of positions,
-// texture coordinates, normals and materials; or no_number.
+// A corner of a face: indices into the lists of positions, texture coordinates, normals
+// and materials of the file, each from 0, or no_number.
 using MeshCorner = std::array<std::uint32_t, 4>;
 inline constexpr std::size_t of_position = 0, of_uv = 1, of_normal = 2, of_material = 3;
 inline constexpr auto no_number = std::numeric_limits<std::uint32_t>::max();
@@ -87,15 +87,16 @@ template <std::floating_point T>
 struct MeshFacesT {
     MeshMaterial material{};
     MeshDataT<T> data{};
-    std::vector<std::uint32_t> positions{}; // of its vertices, in the file
-    std::vector<RgbT<T>> colors{};          // of its vertices, or empty
+    std::vector<std::uint32_t> positions{}; // indices of its vertices' positions
+    std::vector<RgbT<T>> colors{};          // of its vertices; may be empty
     bool has_normals = false, has_uv = false;
-    std::uint32_t without_uv = 0; // line of the last face that has none
+    std::uint32_t without_uv = 0; // line of the last face without uv
 
-    // smooth_normals(), to which a seam of the texture coordinates is no edge.
+    // Computes smooth normals. Vertices at the same position count as one, so that a
+    // seam of the texture coordinates makes no edge.
     void smooth() {
         MeshDataT<T> seamless{.positions = data.positions};
-        std::unordered_map<std::uint32_t, std::uint32_t> first; // at each position
+        std::unordered_map<std::uint32_t, std::uint32_t> first; // by position
         std::vector<std::uint32_t> of;
         for (const std::uint32_t position : positions) {
             const auto vertex = static_cast<std::uint32_t>(of.size());
@@ -117,7 +118,7 @@ public:
     explicit MeshBuilder(const MeshFileSettings& settings) : settings_(settings) {}
 
     MeshReport report{};
-    long long place = 0;          // line, element or triangle that is read
+    long long place = 0;          // line or element that is read, for messages
     std::uint32_t material = 0;   // of the next faces; 0: none
     bool in_smooth_group = false; // the next faces are meant to be smooth
 
@@ -134,7 +135,8 @@ public:
         if (!is_finite(position(positions_.size() - 1)))
             report.add(MeshTrouble::bad_number, place);
     }
-    // The colour of the last position, linear. It is used if each channel is in [0, 1].
+    // Adds the linear colour of the last position. It is ignored if a channel is
+    // outside [0, 1].
     void add_color(const glm::dvec3& color) {
         colors_.resize(positions_.size(), no_color);
         if (colored_.count++ == 0) colored_.line = place;
@@ -152,8 +154,9 @@ public:
         uv_.emplace_back(T(u), T(v));
         if (!has_place(uv_.back())) report.add(MeshTrouble::bad_uv, place);
     }
-    // The next corner of a face: places in the lists of positions, texture coordinates
-    // and normals, or no_number. What lies beyond its list does not exist.
+    // Adds the next corner of a face: indices into the lists of positions, texture
+    // coordinates and normals, or no_number. An index beyond the end of its list counts
+    // as missing.
     void add_corner(std::uint32_t at, std::uint32_t uv, std::uint32_t normal) {
         const std::array<std::uint32_t, 3> corner{at, uv, normal};
         const auto all = counts();
@@ -165,19 +168,19 @@ public:
                 missing_[k] = true;
         if (face_.size() <= 1000) face_.push_back(has);
     }
-    // What does not exist at a corner of the face, though the file names it.
+    // Says that an element that the file names for a corner of the face does not exist.
     void miss(std::size_t k) { missing_[k] = true; }
 
-    // The face of the corners so far.
+    // Ends a face: adds the triangles between its corners.
     void end_face() {
         face();
         face_.clear();
         missing_ = {};
     }
 
-    // The faces by material, in the order of its first use. Completes the report, and
-    // frees all lists.
-    // `known` are the materials by their numbers, nullptr for none.
+    // Returns the faces by material, in the order in which materials are first used.
+    // Completes the report and frees all lists. `known` lists the materials by number;
+    // nullptr means no material.
     std::vector<MeshFacesT<T>>
     take_faces(const std::vector<const MeshMaterial*>& known) {
         report.content.vertices = static_cast<long long>(positions_.size());
@@ -195,7 +198,7 @@ public:
         count_edges(whole, lines, report);
 
         std::vector<MeshFacesT<T>> parts;
-        std::unordered_map<const MeshMaterial*, std::size_t> numbers; // of the parts
+        std::unordered_map<const MeshMaterial*, std::size_t> numbers; // of parts
         const auto part_of = [&](const MeshCorner& corner) -> MeshFacesT<T>& {
             const MeshMaterial* const is = known[corner[of_material]];
             const auto [at, fresh] = numbers.try_emplace(is, parts.size());
@@ -204,7 +207,7 @@ public:
         };
         colors_.resize(colored_.count > 0 ? std::size_t(report.content.vertices) : 0,
                        no_color);
-        std::vector<std::uint32_t> vertices; // of `whole`, in their parts
+        std::vector<std::uint32_t> vertices; // number of each within its part
         vertices.reserve(corners.size());
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [position, uv, normal, number] = corners[i];
@@ -273,7 +276,7 @@ private:
         if (missing_[of_normal]) report.add(MeshTrouble::no_such_normal, place);
         face_positions_.clear();
         for (const MeshCorner& corner : face_) {
-            if (!is_finite(position(corner[of_position]))) return; // said at the vertex
+            if (!is_finite(position(corner[of_position]))) return; // already reported
             face_positions_.push_back(positions_[corner[of_position]]);
         }
         keep_what_all_have();
@@ -286,8 +289,8 @@ private:
         if (empty) report.add(MeshTrouble::no_area, place);
         if (cut.crossed) report.add(MeshTrouble::crossed, place);
     }
-    // Normals and texture coordinates that are not good at every corner of a face are
-    // used at none.
+    // If a corner of a face lacks a valid normal or valid texture coordinates, these
+    // are removed from all its corners.
     void keep_what_all_have() {
         bool all_normals = settings_.normals == MeshNormals::file;
         bool all_uv = true;
@@ -311,7 +314,7 @@ private:
             report.add(MeshTrouble::not_smooth, place);
         all.no_uv_faces += face_[0][of_uv] == no_number ? 1 : 0;
     }
-    // One triangle of a face; false if it has no area.
+    // Adds one triangle of a face; returns false if it has no area.
     bool add(std::array<MeshCorner, 3> corners) {
         const auto across = cross_of_edges(TriangleT<T>{
             position(corners[0][of_position]), position(corners[1][of_position]),
@@ -330,8 +333,8 @@ private:
         lines_.push_back(static_cast<std::uint32_t>(place));
         return true;
     }
-    // The vertex of a corner: one for equal corners, if it is among the latest at their
-    // position.
+    // The vertex of a corner. Equal corners share a vertex if it is one of the last 64
+    // at their position.
     std::uint32_t vertex_of(const MeshCorner& corner) {
         std::uint32_t& latest = latest_[corner[of_position]];
         std::uint32_t vertex = latest;
@@ -349,16 +352,17 @@ private:
     const MeshFileSettings& settings_;
     std::vector<glm::dvec3> positions_{};
     std::vector<RgbT<float>> colors_{};   // of the positions, or empty
-    MeshCount colored_{};                 // positions with a colour that counts
+    MeshCount colored_{};                 // positions with a colour
     std::vector<Vec3T<T>> normals_{};     // 0 for a bad one
     std::vector<Vec2T<T>> uv_{};          // NaN for a bad one
     MeshDataT<T> whole_{};                // all triangles
-    std::vector<std::uint32_t> lines_{};  // the place of each
+    std::vector<std::uint32_t> lines_{};  // line of each triangle
     std::vector<MeshCorner> corners_{};   // of its vertices
-    std::vector<std::uint32_t> before_{}; // of each the one before at its position
-    std::vector<std::uint32_t> latest_{}; // the last one at each position
-    std::vector<MeshCorner> face_{};      // that is read
-    std::array<bool, 3> missing_{};       // at its corners, though named
+    std::vector<std::uint32_t> before_{}; // for each vertex, the previous one at its
+                                          // position
+    std::vector<std::uint32_t> latest_{}; // the last vertex at each position
+    std::vector<MeshCorner> face_{};      // corners of the face that is read
+    std::array<bool, 3> missing_{};       // which elements of a corner do not exist
     std::vector<glm::dvec3> face_positions_{};
 };
 
@@ -372,7 +376,8 @@ private:
               std::string_view(troubles).substr(0, troubles.find('\n'))}));
 }
 
-// Makes a picture of the colours of a part's vertices; of a single colour none.
+// Makes a picture of the vertex colours of a part. If all vertices have one colour, the
+// material gets that colour instead.
 template <std::floating_point T>
 void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
     const RgbT<T> first = part.colors.front();
@@ -396,7 +401,7 @@ void paint(MeshFacesT<T>& part, LoadedMeshT<T>& loaded, long long& pixels) {
     pixels += static_cast<long long>(image.pixels.size());
 }
 
-// A picture of half the width and height.
+// A picture with half the width and height of another one.
 template <std::floating_point T>
 ImageT<T> halved(const ImageT<T>& image) {
     ImageT<T> half = make_image<T>((image.width + 1) / 2, (image.height + 1) / 2);
@@ -412,9 +417,9 @@ ImageT<T> halved(const ImageT<T>& image) {
     return half;
 }
 
-// Halves all pictures until the copies that add_meshes() makes of them, one for each
-// material that has one, are at most so many pixels. A material of many roughnesses is
-// many materials. Returns the pixels of all copies.
+// Halves the width and height of all pictures until their copies have at most `most`
+// pixels together. add_meshes() makes a copy for each material that uses a picture.
+// Returns the number of pixels of all copies.
 template <std::floating_point T>
 long long fit_copies(const std::vector<MeshFacesT<T>>& parts, LoadedMeshT<T>& loaded,
                      long long most = max_image_pixels) {
@@ -441,9 +446,10 @@ long long fit_copies(const std::vector<MeshFacesT<T>>& parts, LoadedMeshT<T>& lo
     return pixels;
 }
 
-// The content of a mesh file. `read` makes the faces, completes the report, and frees
-// its lists, before the meshes, which need more memory, are made. `hint` goes on with a
-// sentence about a file without a face. load(material, loaded, pixels) loads a picture.
+// Makes the meshes of a file. read(loaded) makes the faces, completes the report and
+// frees its lists, before the meshes are made, which need more memory. `hint` is the
+// end of the error sentence for a file without faces. load(material, loaded, pixels)
+// loads the pictures of a material.
 template <std::floating_point T, typename Read, typename Load>
 LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& settings,
                            std::string_view hint, Read read, Load load) {
@@ -467,7 +473,7 @@ LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& sett
     return loaded;
 }
 
-// A file that names no pictures.
+// Loads nothing, for a file format without pictures.
 inline constexpr auto no_pictures = [](const auto&...) {};
 
 } // namespace ljus::detail

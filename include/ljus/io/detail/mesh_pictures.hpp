@@ -10,9 +10,10 @@
 
 namespace ljus::detail {
 
-// Loads a picture of a material, unless it has none or it is loaded already;
-// bytes_of(name) are those of its file. It is kept under its name and `kind`, because
-// the same file may have colours and alpha. The pixels of all files are limited.
+// Loads a picture of a material, unless it is already loaded. bytes_of(name) returns
+// the bytes of its file. The picture is kept under its name with `kind` appended,
+// because one file may hold both colours and alpha. The pixels of all files together
+// are limited.
 template <std::floating_point T, typename BytesOf>
 void load_picture(MeshImage& picture, PictureContent content, std::string_view kind,
                   LoadedMeshT<T>& loaded, long long& pixels, const BytesOf& bytes_of) {
@@ -26,7 +27,7 @@ void load_picture(MeshImage& picture, PictureContent content, std::string_view k
         pixels += static_cast<long long>(image.pixels.size());
     } catch (const std::runtime_error& wrong) {
         std::string why = (picture.at + ": ").append(wrong.what());
-        auto& notes = loaded.report.notes; // several materials may have the picture
+        auto& notes = loaded.report.notes; // materials may share a picture
         if (std::find(notes.begin(), notes.end(), why) == notes.end())
             notes.push_back(std::move(why));
     }

@@ -23,7 +23,8 @@
 
 namespace ljus::detail {
 
-// The unsigned number in at most 8 bytes; the last one is the highest, or the first.
+// The unsigned number in at most 8 bytes. The last byte is the highest or, with
+// `high_first`, the first.
 inline std::uint64_t unsigned_value(std::string_view bytes, bool high_first = false) {
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < bytes.size(); ++k)
@@ -32,7 +33,8 @@ inline std::uint64_t unsigned_value(std::string_view bytes, bool high_first = fa
     return bits;
 }
 
-// The number in all the bytes. Its kind is i: signed, u: unsigned, f: floating point.
+// The number in some bytes. Its kind is 'i' (signed), 'u' (unsigned) or 'f' (floating
+// point).
 inline double binary_number(std::string_view bytes, char kind,
                             bool high_first = false) {
     const std::uint64_t bits = unsigned_value(bytes, high_first);
@@ -45,7 +47,7 @@ inline double binary_number(std::string_view bytes, char kind,
     return kind == 'i' && value >= range / 2 ? value - range : value;
 }
 
-// Takes a line from the front of a text; it ends in LF, CR or CR LF.
+// Removes the first line from a text and returns it. A line ends in LF, CR or CR LF.
 inline std::string_view take_line(std::string_view& text) {
     const auto ends = [](char c) { return c == '\n' || c == '\r'; };
     const auto end = static_cast<std::size_t>(
@@ -57,15 +59,15 @@ inline std::string_view take_line(std::string_view& text) {
 }
 
 // The lines of a text that comes in pieces, without a byte order mark. A line that ends
-// in a backslash goes on with the next one.
+// in a backslash is joined with the next line.
 struct LineReader {
-    const std::string& file; // its name
+    const std::string& file; // the name of the file
     long long number = 1;    // of the next line
     std::string joined{};
 
-    // Calls use(line, number) for each line of a piece. What reaches its end is left,
-    // unless it is the last piece: the next one begins with it.
-    // Returns the number of bytes that are used.
+    // Calls use(line, number) for each line of a piece. A line that reaches the end of
+    // a piece may be incomplete. Unless the piece is the last one, it is therefore left
+    // for the next piece. Returns the number of bytes that were used.
     template <typename Use>
     std::size_t read(std::string_view piece, bool last, Use use) {
         std::string_view rest = number == 1 ? plain_text(piece, file) : piece;
@@ -92,7 +94,7 @@ inline bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-// The words of a line, one after another. A word that begins with # begins a comment.
+// The words of a line, one after another. A comment begins with #.
 struct Words {
     std::string_view rest; // of the line
 
@@ -106,8 +108,8 @@ struct Words {
         rest.remove_prefix(end);
         return word;
     }
-    // All that is left: a name, which may have blanks in it, a # that no blank follows,
-    // and quotation marks around it.
+    // The rest of the line as a name. It may contain blanks and be in quotation marks;
+    // a comment begins with a # between blanks.
     [[nodiscard]] std::string name() const {
         std::string_view text = rest.substr(0, rest.find(" # "));
         while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -118,7 +120,8 @@ struct Words {
     }
 };
 
-// Whether two words are the same in small letters: programs write map_Kd and map_kd.
+// Whether two words are equal but for capital letters: programs write map_Kd and
+// map_kd.
 inline bool same_word(std::string_view a, std::string_view b) {
     const auto small = [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -127,7 +130,8 @@ inline bool same_word(std::string_view a, std::string_view b) {
                       [&](char c, char d) { return small(c) == small(d); });
 }
 
-// Lines that begin with words that nothing here uses. What is no word is no text.
+// Counts the lines that begin with keywords that the reader does not use. A keyword
+// with other characters than letters, digits and _ is ignored.
 class UnusedLines {
 public:
     void add(std::string_view keyword, long long line) {
@@ -140,7 +144,7 @@ public:
             ++words_.try_emplace(std::string(keyword), Found{0, line})
                   .first->second.count;
     }
-    // A sentence a word, with the first line.
+    // Adds one note for each keyword, with the number of its first line.
     void tell(const std::string& file, std::vector<std::string>& notes) const {
         for (const auto& [word, at] : words_)
             notes.push_back(join({shown_path(file), ", line ", to_text(at.line), ": ",
@@ -165,7 +169,8 @@ inline bool is_one_of(std::string_view word,
     return is_one_of(word, std::span(list.begin(), list.size()));
 }
 
-// The number that a word is, 0 if it is too small for double; NaN for anything else.
+// The number that a word spells; 0 if it is too small for double, and NaN if the word
+// is no number.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;

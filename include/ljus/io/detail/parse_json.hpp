@@ -12,8 +12,9 @@ namespace ljus::detail {
 // The deepest nesting of lists and objects.
 inline constexpr std::size_t max_json_depth = 32;
 
-// The limit of a file: this many numbers, or a quarter as many lists and objects, which
-// take more memory. A file of some megabytes could otherwise exhaust memory.
+// The limit for one file: this many numbers, or a quarter as many lists and objects,
+// which take more memory. Without a limit a file of some megabytes could exhaust
+// memory.
 inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
 
 // Receives the events of nlohmann's parser and builds the value.
@@ -23,10 +24,11 @@ struct JsonBuilder {
     using number_float_t = nlohmann::json::number_float_t;
 
     std::string_view source;             // the whole file, for counting lines
-    const std::string& file;             // its name
-    nlohmann::json root{};               // what has been read
+    const std::string& file;             // name of the file
+    nlohmann::json root{};               // the value that is built
     std::vector<nlohmann::json*> open{}; // the enclosing lists and objects
-    nlohmann::json* member = nullptr;    // the current one, if the last is an object
+    nlohmann::json* member = nullptr;    // the current member, if the innermost is an
+                                         // object
     std::size_t room = max_json_values;  // the rest of the limit
 
     bool null() { return put(nullptr); }
@@ -65,7 +67,7 @@ struct JsonBuilder {
                               ", column " + std::to_string(column == 0 ? 1 : column) +
                               ": ";
         std::string why = error.what();
-        std::string right;     // what would be right, if the parser does not say it
+        std::string right;     // what would be right
         if (error.id == 406) { // a number beyond the range of double
             why = path() + " is " + token;
             right = "; it must be finite";
@@ -135,9 +137,9 @@ private:
     }
 };
 
-// Parses JSON; `file` is its name for messages. They give line and column, "scene.json:
-// line 3, column 7: unexpected end of input; expected '}'.", or the path of a duplicate
-// member or of a value that is nested too deeply.
+// Parses JSON. The name of the file is for messages, such as "scene.json: line 3,
+// column 7: unexpected end of input; expected '}'." For a duplicate member, or a value
+// that is nested too deeply, the message gives its path.
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
     source = plain_text(source, file);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_colors.hpp
-/// \brief What in a PNG, JPEG or BMP file says that its colours are not those of sRGB.
+/// \brief Finds out whether a PNG, JPEG or BMP file declares other colours than those
+/// of sRGB.
 
 #include <array>
 #include <cmath>
@@ -23,14 +24,15 @@ class ColorProfile {
 public:
     explicit ColorProfile(const Bytes& bytes) : bytes_(bytes) {}
 
-    // Whether its colours are about those of sRGB. As a gAMA chunk, a gamma of 2.2 is.
+    // Whether the colours are approximately those of sRGB. A gamma of 2.2 counts as
+    // sRGB.
     [[nodiscard]] bool is_srgb() const {
         if (!stands_at(bytes_, 36, "acsp")) return false;
         if (stands_at(bytes_, 16, "GRAY")) return has_srgb_curve("kTRC");
         if (!stands_at(bytes_, 16, "RGB ")) return false;
-        // One of tables has a name alone.
+        // A profile without primaries consists of tables; only its name is checked.
         if (tag("rXYZ") == 0) return name().find("sRGB") != std::string::npos;
-        // Of red, green and blue, adapted to the white of profiles, D50.
+        // The primaries of sRGB, adapted to D50, the white of profiles.
         return has_primary("rXYZ", {0.4361, 0.2225, 0.0139}) &&
                has_primary("gXYZ", {0.3851, 0.7169, 0.0971}) &&
                has_primary("bXYZ", {0.1431, 0.0606, 0.7141}) &&
@@ -38,7 +40,7 @@ public:
                has_srgb_curve("bTRC");
     }
 
-    // Its name, as far as it is ASCII.
+    // The name of the profile, up to its first character that is not ASCII.
     [[nodiscard]] std::string name() const {
         const std::size_t at = tag("desc");
         if (at == 0) return {};
@@ -60,12 +62,12 @@ private:
         return static_cast<std::uint32_t>(number_in(bytes_, at, bytes));
     }
 
-    // A signed number of 16 binary places.
+    // A signed fixed-point number with 16 fraction bits.
     [[nodiscard]] double fixed(std::size_t at) const {
         return static_cast<std::int32_t>(number(at, 4)) / 65536.0;
     }
 
-    // Where a tag's data are; 0 without it.
+    // The index of a tag's data; 0 without that tag.
     [[nodiscard]] std::size_t tag(std::string_view name) const {
         for (std::size_t i = 0, at = 132; i < number(128, 4) && at < bytes_.size();
              ++i, at += 12)
@@ -87,11 +89,12 @@ private:
         return true;
     }
 
-    // The linear light of an encoded value; 0 if the curve is of no kind of ICC.1.
+    // The linear light that a curve gives for an encoded value; 0 if the type of the
+    // curve is unknown.
     [[nodiscard]] double decode(std::size_t curve, double x) const {
         if (stands_at(bytes_, curve, "para")) {
             const std::size_t kind = number(curve + 8, 2);
-            std::array<double, 7> p{1, 1}; // its g, a, b, c, d, e and f
+            std::array<double, 7> p{1, 1}; // g, a, b, c, d, e, f of ICC.1
             constexpr std::array<std::size_t, 5> count{1, 3, 4, 5, 7};
             if (kind >= count.size()) return 0;
             for (std::size_t k = 0; k < count[kind]; ++k)
@@ -115,7 +118,8 @@ private:
     const Bytes& bytes_;
 };
 
-// How a message names a profile of other colours than those of sRGB; empty if they are.
+// The words of a message for a profile whose colours are not those of sRGB; empty for
+// sRGB.
 inline std::string other_profile(const Bytes& bytes) {
     const ColorProfile profile(bytes);
     if (profile.is_srgb()) return {};
@@ -124,9 +128,9 @@ inline std::string other_profile(const Bytes& bytes) {
                         : join({"its colour profile '", name, "'"});
 }
 
-// What in a PNG file says that its colours are not those of sRGB; empty if nothing
-// does. Of several chunks the first of this list counts (PNG 3, section 4.3).
-// inflate(data, size) unpacks a profile.
+// Names the chunk of a PNG file that declares other colours than those of sRGB; empty
+// if there is none. If several chunks describe colours, cICP counts before iCCP, sRGB
+// and cHRM (PNG 3, section 4.3). inflate(data, size) unpacks a profile.
 template <typename Inflate>
 std::string png_other_colors(const Bytes& file, Inflate inflate) {
     std::size_t by_number = 0, profile = 0, profile_size = 0, srgb = 0, primaries = 0;
@@ -138,14 +142,14 @@ std::string png_other_colors(const Bytes& file, Inflate inflate) {
         return name == 0x49444154u;                                 // IDAT
     });
     if (by_number != 0) {
-        // Primaries, curve, no matrix, full range; it may be brighter than white.
+        // The bytes are the numbers of primaries and curve, a matrix, and full range.
         const bool is_srgb = byte_at(file, by_number) == 1 &&
                              byte_at(file, by_number + 1) == 13 &&
                              byte_at(file, by_number + 3) == 1;
         return is_srgb ? "" : "its cICP chunk";
     }
     if (profile != 0) {
-        // Behind its name and the number of the way it is packed.
+        // The profile follows its name and one byte for the method of packing.
         std::size_t name = 0;
         while (name < profile_size && file[profile + name] != 0) ++name;
         const std::size_t head = name + 2;
@@ -155,13 +159,14 @@ std::string png_other_colors(const Bytes& file, Inflate inflate) {
     }
     if (srgb != 0 || primaries == 0) return {};
     std::array<double, 6> xy{};
-    for (std::size_t k = 0; k < xy.size(); ++k) // behind those of white
+    for (std::size_t k = 0; k < xy.size(); ++k) // after the white point
         xy[k] = png_number(file, primaries + 8 + 4 * k) / 1e5;
     return are_srgb_primaries(xy) ? "" : "its cHRM chunk";
 }
 
-// The same of a JPEG file. A profile is cut into numbered segments; a camera names the
-// colours of Adobe RGB in its EXIF data alone.
+// Names the part of a JPEG file that declares other colours than those of sRGB; empty
+// if there is none. A profile is cut into numbered segments. Cameras declare Adobe RGB
+// in their EXIF data only.
 inline std::string jpeg_other_colors(const Bytes& file) {
     std::array<Bytes, 256> parts;
     bool adobe = false;
@@ -184,7 +189,8 @@ inline std::string jpeg_other_colors(const Bytes& file) {
     return adobe ? "its EXIF data" : "";
 }
 
-// The same of a BMP file, whose header may have primaries and a gamma, or a profile.
+// Names the part of a BMP file that declares other colours than those of sRGB; empty if
+// there is none. The header may give primaries and a gamma, or a profile.
 inline std::string bmp_other_colors(const Bytes& file) {
     const std::size_t head = BmpHead(file).size;
     const std::size_t kind = bmp_number(file, 70, 4);
@@ -198,7 +204,7 @@ inline std::string bmp_other_colors(const Bytes& file) {
         return other_profile(Bytes(first, first + static_cast<std::ptrdiff_t>(size)));
     }
     if (kind == 0x4c494e4bu) return "the colour profile that it names"; // LINK
-    if (kind != 0) return {}; // sRGB, or that of Windows
+    if (kind != 0) return {}; // sRGB, or the default of Windows
     std::array<double, 9> xyz{};
     for (std::size_t k = 0; k < xyz.size(); ++k)
         xyz[k] = static_cast<double>(bmp_number(file, 74 + 4 * k, 4));

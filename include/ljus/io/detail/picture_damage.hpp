@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief What stb_image does not test for or does not read in PNG, JPEG and BMP files.
+/// \brief Finds damage in PNG, JPEG and BMP files that stb_image does not test for, and
+/// kinds of files that it does not read.
 
 #include <algorithm>
 #include <array>
@@ -14,12 +15,13 @@
 
 namespace ljus::detail {
 
-// A byte of a file; 0 behind its end, as in stb_image.
+// A byte of a file; 0 beyond its end, as in stb_image.
 inline std::size_t byte_at(const Bytes& file, std::size_t at) {
     return at < file.size() ? std::size_t(file[at]) : std::size_t(0);
 }
 
-// The number in some bytes of a file, whose first one is the highest, or the lowest.
+// The number in some bytes of a file. The first byte is the highest or, with
+// `low_first`, the lowest.
 inline std::size_t number_in(const Bytes& file, std::size_t at, std::size_t bytes,
                              bool low_first = false) {
     std::size_t value = 0;
@@ -32,7 +34,8 @@ inline std::uint32_t png_number(const Bytes& file, std::size_t at) {
     return static_cast<std::uint32_t>(number_in(file, at, 4));
 }
 
-// The CRC-32 at the end of each PNG chunk, over its name and its bytes.
+// The CRC-32 of the bytes from `first` to `last` - 1. A PNG chunk ends with the CRC-32
+// of its name and data.
 inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t last) {
     static constexpr auto table = [] {
         std::array<std::uint32_t, 256> sums{};
@@ -49,9 +52,9 @@ inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t l
     return ~sum;
 }
 
-// Calls use(name, at, size) for the chunks of a PNG file up to IEND, with the index of
-// each one's data, until it returns true. Ends at the first chunk that is cut off.
-// Behind IEND, a file may have bytes that are no chunks.
+// Calls use(name, at, size) for each chunk of a PNG file, where `at` is the index of
+// the chunk's data. Ends if use() returns true, after the chunk IEND, or at a chunk
+// that is cut off.
 template <typename Use>
 void find_png_chunk(const Bytes& file, Use use) {
     for (std::size_t at = 8; at <= file.size() && file.size() - at >= 12;) {
@@ -63,8 +66,8 @@ void find_png_chunk(const Bytes& file, Use use) {
     }
 }
 
-// The damage of a PNG file, or null. stb_image does not test that the chunks follow one
-// another up to IEND, and that their checksums are right.
+// The damage of a PNG file, or null. stb_image tests neither whether the chunks are
+// complete up to IEND nor whether their checksums are right.
 inline const char* png_trouble(const Bytes& file) {
     const char* trouble = "it ends before its last chunk, or in the middle of one";
     find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
@@ -79,8 +82,8 @@ inline const char* png_trouble(const Bytes& file) {
     return trouble;
 }
 
-// The exponent 1/gamma of a PNG file with a gAMA chunk; 0 if it has none, or a chunk of
-// colours that counts before it.
+// The exponent 1/gamma of the gAMA chunk of a PNG file; 0 without such a chunk, or if a
+// chunk sRGB, iCCP or cICP overrides it.
 inline double png_gamma(const Bytes& file) {
     double gamma = 0;
     find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
@@ -93,13 +96,13 @@ inline double png_gamma(const Bytes& file) {
             gamma = png_number(file, at) / 1e5;
         return named || name == 0x49444154u; // IDAT
     });
-    // About that of sRGB: files without an sRGB chunk name it in this way.
+    // 1/2.2 means sRGB in files without an sRGB chunk.
     return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
 }
 
-// A PNG file whose palette is filled up with black to 256 colours; empty if it has no
-// palette, or a full one. stb_image takes colours behind the end of a palette from
-// memory that nobody has set.
+// A copy of a PNG file whose palette is filled up with black to 256 colours; empty if
+// the file has no palette, or a full one. For a colour beyond the end of a palette,
+// stb_image would read uninitialised memory.
 inline Bytes with_whole_palette(const Bytes& file) {
     constexpr std::size_t full = 3 * 256;
     Bytes whole;
@@ -115,20 +118,20 @@ inline Bytes with_whole_palette(const Bytes& file) {
     return whole;
 }
 
-// EXIF data, which are a TIFF file within a file: byte order, offset of the first list
-// of fields, fields of 12 bytes.
+// EXIF data, which are a TIFF file within a picture file. They consist of the byte
+// order, the offset of the first list of fields, and lists of fields of 12 bytes.
 class Tiff {
 public:
     Tiff(const Bytes& file, std::size_t at) : file_(file), at_(at) {}
 
-    // The orientation, 1 to 8; 1 if it is not said.
+    // The orientation, 1 to 8; 1 if the data do not give one.
     [[nodiscard]] int orientation() const {
         const std::size_t field = find(list(at_ + 4), 0x112);
         return field != 0 ? static_cast<int>(number(field, 2)) : 1;
     }
 
-    // Whether the colours are those of Adobe RGB: by a number, or, as cameras say it,
-    // by the rule that the file follows.
+    // Whether the data declare Adobe RGB: by the number of a colour space or, as
+    // cameras do, by the interoperability rule "R03".
     [[nodiscard]] bool is_adobe_rgb() const {
         const std::size_t exif = find(list(at_ + 4), 0x8769);
         if (exif == 0) return false;
@@ -147,7 +150,7 @@ private:
     // The list of fields whose offset is at `i`.
     [[nodiscard]] std::size_t list(std::size_t i) const { return at_ + number(i, 4); }
 
-    // Where the value of a field of a list is; 0 without it.
+    // The index of the value of a field in a list; 0 if the list lacks the field.
     [[nodiscard]] std::size_t find(std::size_t fields, std::size_t name) const {
         for (std::size_t i = 0; i < number(fields, 2); ++i)
             if (const std::size_t field = fields + 2 + 12 * i; number(field, 2) == name)
@@ -171,9 +174,10 @@ inline int png_orientation(const Bytes& file) {
     return orientation;
 }
 
-// True if stb_image can read the tables of a JPEG segment whose length is at `at`: it
-// allocates 256 entries without counting them, and takes number 255 for none. Notes the
-// tables in `there`: bit n is DC table n, bit 16 + n is AC table n.
+// Whether stb_image can read the Huffman tables of a JPEG segment whose length is at
+// `at`. It has room for 256 entries per table, does not count them, and uses the number
+// 255 for no entry. The tables are noted in `there`: bit n for DC table n, bit 16 + n
+// for AC table n.
 inline bool good_huffman_tables(const Bytes& file, std::size_t at,
                                 std::uint32_t& there) {
     const auto byte = [&](std::size_t i) { return byte_at(file, i); };
@@ -189,8 +193,8 @@ inline bool good_huffman_tables(const Bytes& file, std::size_t at,
     return true;
 }
 
-// True if all tables of a scan whose length is at `at` exist: stb_image would read
-// uninitialised ones.
+// Whether the file has all Huffman tables that a scan uses; the length of the scan's
+// header is at `at`. stb_image would use uninitialised tables.
 inline bool finds_tables(const Bytes& file, std::size_t at, bool in_parts,
                          std::uint32_t there) {
     const std::size_t components = byte_at(file, at + 2);
@@ -207,8 +211,8 @@ inline bool finds_tables(const Bytes& file, std::size_t at, bool in_parts,
     return true;
 }
 
-// The index of the next marker behind the coded pixels that begin at `at`. Within
-// pixels, 0xff is followed by 0 or by a restart number.
+// The index of the first marker after coded pixels that begin at `at`. Within pixels, a
+// byte 0xff is followed by 0 or by a restart number.
 inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     const auto is_marker = [&](unsigned char kind) {
         return kind != 0 && kind != 0xff && (kind & 0xf8u) != 0xd0;
@@ -217,15 +221,15 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
-// True if a JPEG file has more scans than it can need. Each scan processes the whole
-// picture and can be as short as ten bytes. A file has at most one per channel; a
-// progressive one, whose scans refine each other, usually has about ten.
+// Whether a JPEG file has more scans than it can need. Each scan processes the whole
+// picture and can be as short as ten bytes. A baseline file has at most one scan per
+// channel. A progressive file, whose scans refine each other, usually has about ten.
 inline bool too_many_scans(int scans, bool in_parts) {
     return scans > (in_parts ? 64 : 4);
 }
 
-// Calls use(kind, at) for the segments of a JPEG file before its pixels, with the index
-// behind the length of each, until it returns true.
+// Calls use(kind, at) for each segment of a JPEG file before its pixels, where `at` is
+// the index after the segment's length. Ends if use() returns true.
 template <typename Use>
 void find_jpeg_segment(const Bytes& file, Use use) {
     constexpr unsigned char padding = 0xff, scan = 0xda;
@@ -257,11 +261,11 @@ inline int jpeg_orientation(const Bytes& file) {
     return orientation;
 }
 
-// What a JPEG file is that stb_image does not read, or reads in other colours; null if
-// there is nothing.
+// The kind of a JPEG file that stb_image does not read, or reads with wrong colours, as
+// the end of a sentence; null for any other file.
 inline const char* jpeg_kind_unread(const Bytes& file) {
     const char* why = nullptr;
-    bool adobe = false; // says what four channels mean
+    bool adobe = false; // a segment that explains four channels
     find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
         adobe = adobe || (kind == 0xee && stands_at(file, at, "Adobe"));
         const bool frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 &&
@@ -279,8 +283,8 @@ inline const char* jpeg_kind_unread(const Bytes& file) {
     return why;
 }
 
-// The damage of a JPEG file, or null, segment by segment: stb_image trusts its tables,
-// and that each scan has its tables.
+// The damage of a JPEG file, or null. stb_image does not test whether Huffman tables
+// are valid, and whether all tables that a scan uses exist.
 inline const char* jpeg_trouble(const Bytes& file) {
     constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
@@ -313,23 +317,25 @@ inline std::size_t bmp_number(const Bytes& file, std::size_t at, std::size_t byt
 
 // The header of a BMP file.
 struct BmpHead {
-    std::size_t offset, size, bits, compression; // of the pixels, itself, a pixel
+    std::size_t offset, size, bits, compression; // offset of the pixels, size of the
+                                                 // header, bits of a pixel
     explicit BmpHead(const Bytes& file)
         : offset(bmp_number(file, 10, 4)), size(bmp_number(file, 14, 4)),
           bits(bmp_number(file, size == 12 ? 24 : 28, 2)),
           compression(size == 12 ? 0 : bmp_number(file, 30, 4)) {}
-    // The bytes of a file of so many pixels, which begin at `offset`; without those
-    // that fill up the last row.
+    // The size of a file with a picture of this width and height, in bytes. The padding
+    // of the last row is left out.
     [[nodiscard]] std::size_t bytes(std::size_t width, std::size_t height) const {
         const std::size_t row = (width * bits + 31) / 32 * 4;
         return offset + (height - 1) * row + (width * bits + 7) / 8;
     }
 };
 
-// A BMP file whose palette is filled up with black, as with_whole_palette().
+// A copy of a BMP file whose palette is filled up with black, as in
+// with_whole_palette().
 inline Bytes bmp_with_whole_palette(const Bytes& file) {
     const BmpHead head(file);
-    // Of the oldest files stb_image takes four colours for something else.
+    // In files with the oldest header stb_image counts four colours too few.
     const std::size_t full = 14 + head.size + (head.size == 12 ? 3 * 260 : 4 * 256);
     if (head.bits >= 16 || head.offset < 14 + head.size || head.offset >= full ||
         head.offset > file.size())

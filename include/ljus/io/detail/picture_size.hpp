@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_size.hpp
-/// \brief How many pixels all pictures of a file may have.
+/// \brief The largest number of pixels in all pictures of a file together.
 
 #include <string>
 
@@ -9,10 +9,11 @@
 
 namespace ljus::detail {
 
-/// The largest number of pixels: 8192 x 4096; half of them for a 16-bit PNG file.
+/// The largest number of pixels: 8192 x 4096, or half as many in a 16-bit PNG file.
 inline constexpr int max_image_pixels = 1 << 25;
 
-// Why a picture is too large beside others with so many pixels; empty if it is not.
+// Why a picture is too large, if other pictures already have `others` pixels; empty if
+// it is not too large.
 inline std::string too_large_beside(long long others, long long wide, long long high) {
     if (wide * high <= max_image_pixels - others) return "";
     return join({"has ", to_text(wide), " x ", to_text(high),

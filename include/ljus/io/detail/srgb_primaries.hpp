@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/srgb_primaries.hpp
-/// \brief Whether a file's primaries are those of sRGB.
+/// \brief Compares the primaries of a file with those of sRGB.
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,9 @@
 
 namespace ljus::detail {
 
-// Whether primaries, (x, y) of red, green and blue, are about those of sRGB; those of
-// HDR files differ by 0.01. White may be another one.
+// Whether primaries, given as (x, y) of red, green and blue, are approximately those of
+// sRGB. The usual primaries of HDR files differ from these by 0.01. The white point is
+// not compared.
 template <typename Numbers>
 [[nodiscard]] bool are_srgb_primaries(const Numbers& numbers) {
     constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/stb_memory.hpp
-/// \brief Memory of stb_image_write and stb_image, for png.hpp and load_image.hpp.
+/// \brief The memory of stb_image_write and stb_image, for png.hpp and load_image.hpp.
 
 #include <cstddef>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 
 namespace ljus::detail {
 
-// The front of each piece of memory, and a link of a circular list.
+// The header of each block of memory, which links the blocks in a circular list.
 struct alignas(std::max_align_t) StbBlock {
     StbBlock* before = this;
     StbBlock* next = this;
@@ -26,8 +26,9 @@ struct alignas(std::max_align_t) StbBlock {
 };
 
 // stb_image_write tests only some of its allocations, and stb_image does not always
-// report one that failed. Here that throws std::bad_alloc. stb cannot free its memory
-// then; at the end of its scope a StbMemory frees what the thread has allocated in it.
+// report one that failed. Here a failed allocation throws std::bad_alloc. stb cannot
+// free its memory then. A StbMemory therefore frees, at the end of its scope, all
+// blocks that the thread has allocated meanwhile.
 class StbMemory {
 public:
     StbMemory() noexcept : outer_(list()) { list() = &blocks_; }
@@ -38,7 +39,7 @@ public:
         while (blocks_.next != &blocks_) release(blocks_.next + 1);
     }
 
-    // As std::realloc, but throws.
+    // Like std::realloc, but throws std::bad_alloc.
     static void* resize(void* old, std::size_t size) {
         StbBlock* const from =
             old != nullptr ? static_cast<StbBlock*>(old) - 1 : nullptr;
@@ -61,7 +62,7 @@ public:
     }
 
 private:
-    // Of the innermost scope on this thread; null outside.
+    // The list of the innermost scope on this thread; null outside all scopes.
     static StbBlock*& list() noexcept {
         static thread_local StbBlock* current = nullptr;
         return current;

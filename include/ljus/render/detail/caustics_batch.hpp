@@ -13,12 +13,14 @@ namespace ljus::detail {
 template <std::floating_point T>
 struct CausticsBatch {
     std::uint32_t item = 0; ///< Index of the sample that is being traced.
-    GrowingArray<EstimatePlaceT<T>> places{}; ///< In the order of the samples.
+    GrowingArray<EstimatePlaceT<T>> places{}; ///< The queued estimates, in the order of
+                                              ///< the samples.
     BallBlocks found{};                       ///< Storage for the search.
 
-    /// Computes the estimates.
+    /// Computes the queued estimates.
     /// \param counts   Counts queries and photons.
-    /// \param give     Called as give(item, light) with light for a sample.
+    /// \param give     Called as give(item, light), with the index of a sample and the
+    ///                 radiance that is to be added to it.
     template <typename Mapper, typename Give>
     void finish(const Mapper& mapper, Counts& counts, const Give& give) {
         if (places.empty()) return;

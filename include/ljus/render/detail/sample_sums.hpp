@@ -11,13 +11,13 @@
 
 namespace ljus::detail {
 
-/// A renderer that delays some queries, to answer those of many samples together. Its
-/// type `Batch` collects them, as Context::batch, and has
+/// A renderer that delays some queries, to answer the queries of many samples together.
+/// Its type `Batch` collects the queries as Context::batch, and has
 ///
 ///     std::uint32_t item;  // index of the sample that is being traced
 ///     void finish(const R& renderer, Counts& counts, const auto& give);
 ///
-/// finish() answers the queries by give(item, light), which adds light to a sample.
+/// For each answer, finish() calls give(item, light), which adds the light to a sample.
 /// Batching must not change any result. A renderer that reports light paths calls
 /// log_delay() for each query that it delays.
 template <typename R>
@@ -28,24 +28,25 @@ concept Batches = requires(typename R::Batch& batch) {
 /// The batch of a renderer that delays nothing.
 template <typename R>
 struct BatchOf {
-    using Type = NoBatch;              ///< Its batch.
+    using Type = NoBatch;              ///< A batch that stays empty.
     static constexpr int together = 1; ///< How many samples are finished at a time.
 };
 /// The batch of a renderer that delays queries.
 template <Batches R>
 struct BatchOf<R> {
-    using Type = typename R::Batch;     ///< Its batch.
+    using Type = typename R::Batch;     ///< The renderer's own batch.
     static constexpr int together = 64; ///< How many samples are finished at a time.
 };
 
-/// The sums over the samples of a pixel, in double: in float, the last of 100 000
-/// samples would be lost.
+/// The sums over the samples of a pixel. They are in double, because a sum of 100 000
+/// samples in float would lose the last ones.
 struct PixelSums {
     RgbT<double> sum{0};     ///< Sum of radiance.
     RgbT<double> squares{0}; ///< Sum of squared radiance.
 };
 
-/// Adds samples to the sums of their pixels once their delayed queries are answered.
+/// Collects samples, and adds each sample to the sums of its pixel when its delayed
+/// queries are answered.
 template <typename R, std::floating_point T>
 class SampleSums {
 public:
@@ -55,7 +56,7 @@ public:
         : renderer_(renderer), sums_(sums), cost_(cost) {}
 
     /// Adds a sample.
-    /// \param pixel  Its index in the sums.
+    /// \param pixel  The index of the sample's pixel in the sums.
     /// \param trace  Called with a batch; returns radiance and weight of the sample.
     template <typename Trace>
     void add(std::size_t pixel, const Trace& trace) {
