@@ -5,7 +5,7 @@ ljus_break_it(NAME load-obj-from-the-end HEADER io/load_obj.hpp TEST load_obj
     CASES "load_obj: line ends*")
 
 # What is no number is 0, as many a program has it.
-ljus_break_it(NAME load-obj-bad-number HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME load-obj-bad-number HEADER io/detail/parse.hpp TEST load_obj
     FROM ": std::numeric_limits<double>::quiet_NaN();"
     TO   ": 0;"
     CASES "load_obj: each trouble*")
@@ -17,7 +17,7 @@ ljus_break_it(NAME load-obj-overflow HEADER io/load_obj.hpp TEST load_obj
     CASES "load_obj: each trouble*")
 
 # Both ends of a line count as lines.
-ljus_break_it(NAME load-obj-line HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME load-obj-line HEADER io/detail/parse.hpp TEST load_obj
     FROM "text.starts_with(\"\\r\\n\") ? 2 : 1"
     TO   "1"
     CASES "load_obj: line ends*")
@@ -119,7 +119,7 @@ ljus_break_it(NAME text-mark HEADER io/file.hpp TEST load_obj
     CASES "load_obj: files of other programs")
 
 # A line does not go on behind a backslash.
-ljus_break_it(NAME obj-backslash HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME obj-backslash HEADER io/detail/parse.hpp TEST load_obj
     FROM "if (line.ends_with('\\\\') && !rest.empty()) {"
     TO   "if (false) {"
     CASES "load_obj: files of other programs")
@@ -155,7 +155,7 @@ ljus_break_it(NAME polygon-seen HEADER geometry/detail/polygon.hpp TEST load_obj
     CASES "load_obj: a polygon that is not flat*")
 
 # The next piece of a file begins behind a line that has only begun.
-ljus_break_it(NAME obj-piece HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME obj-piece HEADER io/detail/parse.hpp TEST load_obj
     FROM "if (rest.empty() && !last) return piece.size() - left;"
     TO   ";"
     CASES "load_obj: a file that comes in pieces*")
@@ -185,19 +185,19 @@ ljus_break_it(NAME obj-volume HEADER io/mesh_report.hpp TEST load_obj
     CASES "load_obj: a report has all*")
 
 # A name keeps its quotation marks.
-ljus_break_it(NAME obj-quotes HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME obj-quotes HEADER io/detail/parse.hpp TEST load_obj
     FROM "text = text.substr(1, text.size() - 2);"
     TO   ";"
     CASES "load_obj: files of other programs,load_obj: two names*")
 
 # A word in other letters is another word.
-ljus_break_it(NAME obj-small-letters HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME obj-small-letters HEADER io/detail/parse.hpp TEST load_obj
     FROM "return small(c) == small(d);"
     TO   "return c == d;"
     CASES "load_obj: files of other programs")
 
 # A number that is nearly 0 is no number.
-ljus_break_it(NAME obj-tiny-number HEADER io/detail/obj_text.hpp TEST load_obj
+ljus_break_it(NAME obj-tiny-number HEADER io/detail/parse.hpp TEST load_obj
     FROM "return tiny ? 0 :"
     TO   "return false ? 0 :"
     CASES "load_obj: files of other programs")

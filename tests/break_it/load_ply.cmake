@@ -1,11 +1,11 @@
 # The highest byte comes last in either order.
-ljus_break_it(NAME ply-byte-order HEADER io/detail/obj_text.hpp TEST load_ply
+ljus_break_it(NAME ply-byte-order HEADER io/detail/parse.hpp TEST load_ply
     FROM "high_first ? k : bytes.size() - 1 - k"
     TO   "bytes.size() - 1 - k"
     CASES "load_ply: a mesh is the same*,load_ply: whole numbers*")
 
 # A char of -1 is 255.
-ljus_break_it(NAME ply-sign HEADER io/detail/obj_text.hpp TEST load_ply
+ljus_break_it(NAME ply-sign HEADER io/detail/parse.hpp TEST load_ply
     FROM "kind == 'i' && value >= range / 2"
     TO   "false"
     CASES "load_ply: whole numbers*")

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 #include "ljus/lights/goniometric_light.hpp"
 
 namespace ljus {

@@ -14,7 +14,7 @@
 #include "ljus/image/color.hpp"
 #include "ljus/io/detail/mesh_builder.hpp"
 #include "ljus/io/detail/mesh_pictures.hpp"
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 #include "ljus/io/load_image.hpp"
 #include "ljus/io/mesh_file.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "ljus/image/color.hpp"
 #include "ljus/io/detail/mesh_builder.hpp"
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 
 namespace ljus {
 

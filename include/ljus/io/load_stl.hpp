@@ -7,7 +7,7 @@
 
 #include "ljus/geometry/detail/equal_points.hpp"
 #include "ljus/io/detail/mesh_builder.hpp"
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 
 namespace ljus {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "ljus/image/image.hpp"
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ljus/io/detail/obj_text.hpp"
+#include "ljus/io/detail/parse.hpp"
 #include "ljus/io/detail/parse_json.hpp"
 #include "ljus/io/file.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file ljus/io/detail/obj_text.hpp
-/// \brief The lines, words and numbers of a mesh file.
+/// \file ljus/io/detail/parse.hpp
+/// \brief The lines, words and numbers of a file, in text and in binary.
 
 #include <algorithm>
 #include <bit>
