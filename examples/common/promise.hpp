@@ -58,6 +58,11 @@ struct Promise {
     double error = 0;   ///< relMSE; 0: as small as the seconds allow.
 };
 
+/// Whether anything is promised.
+[[nodiscard]] constexpr bool promised(const Promise& promise) noexcept {
+    return promise.seconds > 0 || promise.error > 0;
+}
+
 /// Combines two estimates of a squared bias: the pilot's measurement, and the value of
 /// the book's rooms.
 ///

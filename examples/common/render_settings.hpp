@@ -16,7 +16,9 @@
 
 #include "command_line.hpp"
 #include "exr_files.hpp"
+#include "layer_options.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/render/adaptive.hpp"
 #include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
@@ -57,9 +59,9 @@ struct RenderRequest {
     bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.75;           ///< Deviation at which they get all of them.
-    double exposure = 0;                  ///< Exposure of PNG files, in stops.
+    /// Rays for pixels that need more than the others.
+    ljus::AdaptiveSettings adaptive{.more = 0, .batches = 1, .disagreement = 0.75};
+    double exposure = 0; ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
@@ -68,16 +70,18 @@ struct RenderRequest {
     PassOptions passes{};          ///< Progressive photon maps.
     Promise promise{};             ///< Seconds or an error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
-    std::string remarks{};         ///< Remarks on the photon passes, one a line.
+    std::string remarks{};         ///< What was remarked, a line each.
     std::string slice{};           ///< "3/16", or nothing.
     SliceNumber part{};            ///< The same as a number.
     std::string region{};          ///< "40,30,64,48", or nothing.
+    ljus::PixelRegion pixels{};    ///< Those of the slice, the region, or all.
     std::string layers{};          ///< "normal,albedo", or nothing.
+    ljus::LayerSettings which{};   ///< The same as settings.
     std::string pixel{};           ///< "120,80", or nothing.
-    std::string photons{};         ///< Kind of photons to draw as dots, or nothing.
-    bool plan = false;             ///< Print what would run.
-    bool hooks = false;            ///< Print what the scene's types provide.
-    bool quiet = false;            ///< No progress bar and no text.
+    std::vector<ljus::PhotonKind> photons{}; ///< Kinds to draw as dots, or nothing.
+    bool plan = false;                       ///< Print what would run.
+    bool hooks = false;                      ///< Print what the scene's types provide.
+    bool quiet = false; ///< No progress bar, and no text but remarks.
 };
 
 /// Adds every setting: its name, the member that holds it, a line of help, and its
@@ -106,10 +110,10 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
         "--layers LIST", r.layers,
         "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
         "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
-    line.add("--more-rays", r.more_rays,
+    line.add("--more-rays", r.adaptive.more,
              "Most further rays of a pixel, where the rays around it differ", 0,
              million);
-    line.add("--disagreement", r.disagreement,
+    line.add("--disagreement", r.adaptive.disagreement,
              "Relative standard deviation at which a pixel gets all of them", 1e-6,
              1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
@@ -238,8 +242,13 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--hooks", r.hooks,
              "Print what the scene's types provide, and what they do not");
     line.add("--explain X,Y", r.pixel, "Print the paths of a pixel");
+    using enum PhotonKind;
     line.add("--show-photons", r.photons, "Draw photons as dots",
-             {"direct", "indirect", "shadow", "caustic", "all"});
+             {{"direct", {direct}},
+              {"indirect", {indirect}},
+              {"shadow", {shadow}},
+              {"caustic", {caustic}},
+              {"all", {direct, indirect, shadow, caustic}}});
 }
 
 /// Chooses the settings that the user did not give: from the scene, from the preset,
@@ -252,12 +261,16 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 /// \throws std::invalid_argument  for a picture that is too large.
 inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int height,
                             bool fog = false) {
+    if (fog && promised(r.promise))
+        throw std::invalid_argument(
+            "--seconds and --error choose among settings that cache irradiance, which "
+            "fog does not allow: give a --preset and --rays");
     Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
     ljus::require_image_size(options.width, options.height);
     if (r.preset) {
         const ljus::PresetRays rays = preset_rays(*r.preset);
         options = line.fill({width, height, rays.first});
-        r.more_rays = rays.more;
+        r.adaptive.more = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
         // Keep the default shadow rays, not the preset's.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
@@ -267,19 +280,21 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     }
     if (r.passes.passes > 0) { // each pass has one ray per pixel
         options = line.fill({width, height, 1});
-        r.more_rays = 0;
+        r.adaptive.more = 0;
     }
     for (const auto& [option, given] : {std::pair{"--slice", r.part.count > 0},
                                         {"--region", !r.region.empty()},
                                         {"--layers", !r.layers.empty()}})
-        if (given && r.more_rays > 0)
-            throw std::invalid_argument(
-                "--more-rays is " + std::to_string(r.more_rays) + "; with " + option +
-                ", which takes the same rays in every "
-                "pixel, it must be 0: give --more-rays 0");
+        if (given && r.adaptive.more > 0)
+            throw std::invalid_argument("--more-rays is " +
+                                        std::to_string(r.adaptive.more) + "; with " +
+                                        option +
+                                        ", which takes the same rays in every "
+                                        "pixel, it must be 0: give --more-rays 0");
     const auto sampling = r.picture.sampling;
     r.picture = picture_settings(options);
     r.picture.sampling = sampling;
+    r.adaptive.first = r.picture.samples;
     r.photon.general.numbers = r.photon.caustics.numbers;
     r.photon.general.max_bounces = r.photon.caustics.max_bounces;
     for (ljus::PhotonPassSettings* pass : {&r.photon.caustics, &r.photon.general}) {
@@ -331,7 +346,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     const auto json = to_json(line, r);
     for (const auto& [name, value] : json.items())
         if (name != "scene" && name != "exposure" && name != "passes" &&
-            name != "resume" && name != "every")
+            name != "resume" && name != "every" && name != "remarks")
             settings.emplace_back(name, value.dump());
     return picture_text(settings, r.scene_hash);
 }
