@@ -197,9 +197,8 @@ RenderedT<T> draw_photons(const W& world, const CameraT<T>& camera, const Reques
     for (const MapType type : {MapType::general, MapType::caustics}) {
         const bool caustics = type == MapType::caustics;
         auto kinds = r.photons;
-        std::erase_if(kinds, [&](auto kind) {
-            return (kind == PhotonKind::caustic) != caustics;
-        });
+        std::erase_if(kinds,
+                      [=](auto k) { return caustics != (k == PhotonKind::caustic); });
         if (kinds.empty()) continue;
         examples::ProgressBar bar("photons", r.quiet);
         PhotonPassSettings pass = caustics ? r.photon.caustics : r.photon.general;
