@@ -69,7 +69,7 @@ void print_layers(const std::string& path) {
         if (values.empty()) values = {0};
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         std::printf(
-            "  layer      %s: %d x %d, from %.6g to %.6g; %zu values are not finite\n",
+            "  layer      %s: %d x %d, from %.6g to %.6g, %zu values are not finite\n",
             names.c_str(), layer.image.width, layer.image.height, double(*low),
             double(*high), others);
     }

@@ -65,8 +65,8 @@ constexpr void add(Estimate& estimate, double x) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);
 }
 
-/// How often a mean is this far from the truth or farther, by noise alone: the two tails
-/// of Student's distribution.
+/// How often a mean is at least this far from the truth by noise alone: both tails of
+/// Student's distribution.
 /// \param errors  The distance in standard errors, at least 0.
 /// \param count   The number of samples that gave both, at least 2.
 /// \return A probability, to about 1e-6.

@@ -256,8 +256,8 @@ template <std::floating_point T>
 /// \param runs       At least 2 pictures of the same size, with independent seeds.
 /// \param reference  The reference, of that size, without noise.
 /// \param size       Side of a block in pixels, at least 1.
-/// \return At least 0; three numbers for each block, row by row. Infinity where there is
-///         a difference and no noise.
+/// \return At least 0; three numbers for each block, row by row. Infinity for a
+///         difference without noise.
 /// \throws std::invalid_argument  as block_statistics().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] std::vector<double> block_deviations(const std::vector<ImageT<T>>& runs,
