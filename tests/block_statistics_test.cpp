@@ -71,6 +71,25 @@ TEST_CASE("block_statistics: pixels that share their noise do not fool it") {
         CHECK(sure.x == doctest::Approx(0.1));
 }
 
+TEST_CASE("block_statistics: how far blocks are from the truth") {
+    // Two blocks of one pixel: the first is off by 1 of its standard errors in red, by
+    // any number of them in green, where there is no noise, and not at all in blue.
+    std::vector<ImageD> runs;
+    for (const double value : {0.5, 1.0}) {
+        runs.push_back(ljus::make_image<double>(2, 1, RgbD(value)));
+        pixel(runs.back(), 0, 0).y = 1;
+    }
+    auto truth = ljus::make_image<double>(2, 1, RgbD(0.75));
+    pixel(truth, 0, 0).x = 1;
+    const auto off = block_deviations(runs, truth, 1);
+    REQUIRE(off.size() == 6);
+    CHECK(off[0] == doctest::Approx(1));
+    CHECK(std::isinf(off[1]));
+    for (const std::size_t i : {2, 3, 4, 5}) CHECK(off[i] == 0);
+    CHECK_THROWS_AS((void)block_deviations(runs, ljus::make_image<double>(1, 2)),
+                    std::invalid_argument);
+}
+
 TEST_CASE("block_statistics: what it refuses") {
     const auto one = ljus::make_image<double>(8, 8);
     CHECK_THROWS_WITH_AS((void)block_statistics(std::vector{one}),

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "support/draws.hpp"
@@ -96,6 +97,19 @@ TEST_CASE("estimate: the variance has the right mean, also of few samples") {
         sum += variance(e) / 20000;
     }
     CHECK(sum == within(1.0 / 12, 0.01));
+}
+
+TEST_CASE("estimate: how often noise alone is this far from the truth") {
+    // With one and two degrees of freedom Student's distribution has a closed form.
+    for (const double errors : {0.1, 1.0, 3.0, 10.0}) {
+        CHECK(ljus::chance_beyond(errors, 2) ==
+              doctest::Approx(1 - 2 / std::numbers::pi * std::atan(errors)));
+        CHECK(ljus::chance_beyond(errors, 3) ==
+              doctest::Approx(1 - errors / std::sqrt(2 + errors * errors)));
+        CHECK(ljus::chance_beyond(errors, 1e6) ==
+              doctest::Approx(std::erfc(errors / std::sqrt(2.0))).epsilon(0.01));
+    }
+    CHECK(ljus::chance_beyond(0, 5) == 1);
 }
 
 TEST_CASE("estimate: a sample that is no number shows") {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "experiments/extreme_room.hpp"
 #include "ljus/inspect/metrics.hpp"
@@ -128,6 +129,39 @@ TEST_CASE("extremes: far from the origin float says that it does not hold, and d
           "use double, or move the scene towards the origin");
     // And double in its turn.
     CHECK(checked<double>(at(1e15)).remarks.find("double keeps ") != std::string::npos);
+}
+
+TEST_CASE_TEMPLATE("extremes: a camera in a surface, whatever else is in the scene", T,
+                   float, double) {
+    const auto remarks = [](const Vec3T<T>& camera, T scale, T lamp) {
+        Scene<Shapes<SphereT<T>, QuadT<T>>, Materials<LambertianT<T>>> scene;
+        const auto grey = scene.add(LambertianT<T>{});
+        scene.add(QuadT<T>{.corner = scale * Vec3T<T>{-1, 0, 1},
+                           .edge_u = scale * Vec3T<T>{2, 0, 0},
+                           .edge_v = scale * Vec3T<T>{0, 0, -2}},
+                  grey);
+        if (lamp > 0) // far above, or all around
+            for (const T height : {T(0), T(3) * lamp})
+                scene.add(SphereT<T>{{T(0), height, T(0)}, lamp}, grey, RgbT<T>{T(1)});
+        return camera_remarks(World(std::move(scene)), scale * camera);
+    };
+    for (const T scale : {T(1e-6), T(1), T(1e6)})
+        for (const T lamp : {T(0), T(1e8)}) {
+            CAPTURE(scale);
+            CAPTURE(lamp);
+            CHECK(remarks({T(0.25), T(0), T(0.5)}, scale, lamp) ==
+                  std::vector<std::string>{
+                      "camera.position lies in a surface, which its rays may meet at "
+                      "once or not at all: move it to one side"});
+            for (const T height : {T(1e-3), T(-1e-3), T(1)})
+                CHECK(remarks({T(0.25), height, T(0.5)}, scale, lamp).empty());
+            CHECK(remarks({T(3), T(0), T(0)}, scale, lamp).empty()); // beside it
+        }
+    // On a ball as large as the earth: 64 m are some digits of float's, or a few last ones.
+    CHECK(remarks({T(0), T(1e8), T(0)}, 1, T(1e8)).size() == 1);
+    CHECK(remarks({T(0), T(1e8) + T(1e3), T(0)}, 1, T(1e8)).empty());
+    const Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>> nothing;
+    CHECK(camera_remarks(World(nothing), Vec3T<T>{T(0)}).size() == 1);
 }
 
 TEST_CASE_TEMPLATE("extremes: lamps from a point to the ceiling", T, float, double) {

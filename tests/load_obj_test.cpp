@@ -873,8 +873,32 @@ TEST_CASE("load_obj: a report has all that the file has") {
     CHECK(has.no_uv_faces == 3);
     CHECK(has.closed);
     CHECK(has.volume == doctest::Approx(4.0 / 3));
+    CHECK(to_text(read_obj(text, "x")).find("  closed     yes; volume 1.33333\n") !=
+          std::string::npos);
     const auto square =
         read_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "x");
+    CHECK(to_text(square) ==
+          "  vertices   4, 0 of them in no face; 0 normals, 0 texture coordinates\n"
+          "  groups     0 in 0 objects\n"
+          "  faces      1, 1 of them with more than three corners, which are cut; 1 "
+          "without normals, 1 without texture coordinates\n"
+          "  triangles  2\n"
+          "  box        (0, 0, 0) to (1, 1, 0)\n"
+          "  area       1\n"
+          "  closed     no\n"
+          "  material   (none): 2 triangles, matt (0.5, 0.5, 0.5)\n"
+          "odd:\n"
+          "line 5: 4 edges belong to one face only; the mesh is not closed, and "
+          "unsuitable for glass.\n");
+    CHECK(to_text(MeshMaterial{.specular = glm::dvec3(0.9),
+                               .emission{2, 1, 0},
+                               .roughness = 0.25,
+                               .illumination = 3,
+                               .mask{.name = "leaf.png"}}) ==
+          "mirror of (0.9, 0.9, 0.9), roughness 0.25, emits (2, 1, 0), holes by "
+          "leaf.png");
+    CHECK(to_text(MeshMaterial{.index = 1.25, .illumination = 4}) ==
+          "glass of index 1.25");
     CHECK(square.report.content.polygons == 1);
     CHECK_FALSE(square.report.content.closed);
     CHECK(square.report.content.volume == 0);

@@ -293,7 +293,7 @@ CommandLine::CommandLine(std::vector<std::string> arguments)
     add("--width", options.width, "Width of the picture in pixels", 1, 65536);
     add("--height", options.height, "Height of the picture in pixels", 1, 65536);
     add("--rays,--spp", options.samples, "Rays per pixel", 1, 100'000'000);
-    add("--quiet", options.quiet, "No progress bar and no text");
+    add("--quiet", options.quiet, "No progress bar, no text but remarks (on stderr)");
 }
 
 CommandLine::~CommandLine() = default;

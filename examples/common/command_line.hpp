@@ -53,8 +53,8 @@ struct Options {
     int width = 0;                     ///< --width, in pixels.
     int height = 0;                    ///< --height, in pixels.
     int samples = 0;                   ///< --rays, per pixel.
-    bool quiet = false;                ///< --quiet: no progress bar, no text.
-    std::string only; ///< --only, in a program that makes several items.
+    bool quiet = false; ///< --quiet: no progress bar, no text but remarks.
+    std::string only;   ///< --only, in a program that makes several items.
 
     /// Whether an item is to be made: --only names it, or is not given.
     [[nodiscard]] bool wants(const std::string& item) const {

@@ -85,6 +85,8 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
     const bool general =
         run.general_map || run.volume_map || run.skipped_rays || run.skipped_bounces;
     const auto photon_group = [](std::size_t i) { return photon_groups.at(i); };
+    using enum ljus::PhotonKind;
+    const auto caustics = std::count(r.photons.begin(), r.photons.end(), caustic);
     return {
         {"on what --hooks prints",
          r.hooks && !r.plan,
@@ -109,20 +111,20 @@ options_idle(const CommandLine& line, const RenderRequest& r, const ljus::Passes
           "--depth", "--roulette", "--caustic-budget", photon_group(0), photon_group(2),
           photon_group(3), photon_group(4), path_group}},
         {"where no photon of the caustics map is drawn",
-         dots && r.photons != "all" && r.photons != "caustic",
+         dots && caustics == 0,
          {"--caustic-photons"}},
         {"where no photon of the general map is drawn",
-         r.photons == "caustic",
+         r.photons == std::vector{caustic},
          {"--general-photons"}},
         {"unless --renderer is photon",
          !photons,
          {photon_group(0), photon_group(1), photon_group(2), photon_group(3),
           photon_group(4)}},
         {"with --renderer path and --rays",
-         paths && line.given("--rays") && r.more_rays == 0,
+         paths && line.given("--rays") && r.adaptive.more == 0,
          {"--preset"}},
         {"without --renderer path", !paths, {path_group}},
-        {"without --more-rays", r.more_rays == 0, {"--disagreement"}},
+        {"without --more-rays", r.adaptive.more == 0, {"--disagreement"}},
         {"in a file that holds radiance", !exposed(r), {"--exposure"}},
         {"without --checkpoint or --preview",
          r.passes.checkpoint.empty() && r.passes.preview.empty(),
@@ -211,9 +213,19 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     }
 }
 
-/// The pixels that --region selects.
-/// \throws std::invalid_argument  if the region is not within the picture.
-[[nodiscard]] inline ljus::PixelRegion region_of(const RenderRequest& r) {
+/// Finds the pixels of --slice or --region, and the layers of --layers, once the size
+/// of the picture is known.
+/// \param r  Its `pixels` and `which` are set; those of a slice may be no row.
+/// \throws std::invalid_argument  for pixels outside the picture, or a wrong layer.
+inline void choose_pixels(RenderRequest& r) {
+    const auto [width, height] = std::pair{r.picture.width, r.picture.height};
+    r.pixels = {0, 0, width, height};
+    if (!r.layers.empty()) r.which = layer_settings(r.layers);
+    if (r.part.count > 0) {
+        const ljus::RowRange rows = rows_of(r.part, height);
+        r.pixels = {0, rows.first, width, rows.last - rows.first};
+    }
+    if (r.region.empty()) return;
     const std::size_t second = r.region.find(',', r.region.find(',') + 1);
     const auto first = two_numbers(r.region.substr(0, second), ',');
     const auto size = second != std::string::npos
@@ -222,15 +234,14 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     const auto inside = [](int from, int count, int all) {
         return from >= 0 && count >= 1 && from < all && count <= all - from;
     };
-    if (!first || !size || !inside(first->first, size->first, r.picture.width) ||
-        !inside(first->second, size->second, r.picture.height))
+    if (!first || !size || !inside(first->first, size->first, width) ||
+        !inside(first->second, size->second, height))
         throw std::invalid_argument(
             "--region is " + r.region +
             "; it must be X,Y,W,H: the first column and row, counted from 0, and the "
             "width and height, within the picture of " +
-            std::to_string(r.picture.width) + " x " + std::to_string(r.picture.height) +
-            " pixels");
-    return {first->first, first->second, size->first, size->second};
+            std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    r.pixels = {first->first, first->second, size->first, size->second};
 }
 
 /// The pixel that --explain selects.

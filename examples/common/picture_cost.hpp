@@ -13,7 +13,8 @@
 
 #include "ljus/inspect/census.hpp"
 #include "ljus/path/renderer.hpp"
-#include "ljus/render/photon_mapping_settings.hpp"
+#include "ljus/render/gathering.hpp"
+#include "ljus/render/passes.hpp"
 
 namespace examples {
 
@@ -63,21 +64,6 @@ inline void print_cost(const ljus::Counts& counts, double seconds) {
                     "", "", counts.cut_paths);
 }
 
-/// Prints the numbers of photons in a map, in one line.
-/// \param name     The name of the map.
-/// \param map      The map.
-/// \param emitted  The number of photons emitted.
-template <std::floating_point T>
-void print_map(const char* name, const ljus::PhotonMapT<T>& map, long long emitted) {
-    std::printf("  %-16s %10s  %lld photons emitted; kept:", name, "", emitted);
-    const ljus::PhotonCensus kept = census(map);
-    using enum ljus::PhotonKind;
-    for (const auto kind : {direct, caustic, indirect, shadow})
-        if (kept[kind].photons > 0)
-            std::printf(" %" PRIu64 " %s", kept[kind].photons, name_of(kind));
-    std::printf("\n");
-}
-
 /// Prints the settings chosen for the caustics, in one line.
 /// \param settings  The settings, with the chosen radius, and with the shares of the
 ///                  objects if there are any.
@@ -88,6 +74,39 @@ inline void print_caustics(const ljus::PhotonMappingSettings& settings) {
     for (std::size_t i = 0; i < shares.size() && i < 12; ++i)
         std::printf("%s%.3g", i == 0 ? "; shares of the photons: " : ", ", shares[i]);
     std::printf("%s\n", shares.size() > 12 ? ", ..." : "");
+}
+
+/// Prints how long the photon maps took, and what each of them has, in one line each.
+/// \param mapper   A PhotonMapper that can gather, with its irradiance cache.
+/// \param seconds  The time of all of them.
+template <typename Mapper>
+void print_maps(const Mapper& mapper, double seconds) {
+    const ljus::Passes& passes = mapper.passes();
+    const auto& maps = mapper.maps();
+    const auto& cache = mapper.template state<ljus::Gathering>().cache;
+    const auto print_map = [](const char* name, const auto& map, long long emitted) {
+        std::printf("  %-16s %10s  %lld photons emitted; kept:", name, "", emitted);
+        const ljus::PhotonCensus kept = census(map);
+        using enum ljus::PhotonKind;
+        for (const auto kind : {direct, caustic, indirect, shadow})
+            if (kept[kind].photons > 0)
+                std::printf(" %" PRIu64 " %s", kept[kind].photons, name_of(kind));
+        std::printf("\n");
+    };
+    std::printf("  %-16s %8.2f s\n", "photon maps", seconds);
+    if (passes.caustics_map) {
+        print_map("caustics map", maps.caustics, mapper.settings().caustics.photons);
+        print_caustics(mapper.settings());
+    }
+    if (passes.general_map)
+        print_map("general map", maps.general, mapper.settings().general.photons);
+    if (passes.volume_map)
+        std::printf("  %-16s %10s  %zu photons stored\n", "volume map", "",
+                    maps.fog_caustics.photons.size() + maps.fog.photons.size());
+    if (passes.cache)
+        std::printf("  %-16s %10s  %zu points, %" PRIu64 " gather rays\n",
+                    "irradiance cache", "", cache.records.size(),
+                    cache.counts.bounce_rays);
 }
 
 } // namespace examples

@@ -59,8 +59,13 @@ struct Promise {
     double error = 0;   ///< relMSE; 0: as small as the time allows.
 };
 
-/// Combines two estimates of a squared bias: the measurement of a pilot, and the value
-/// that was measured in the rooms of the book.
+/// Whether anything is promised.
+[[nodiscard]] constexpr bool promised(const Promise& promise) noexcept {
+    return promise.seconds > 0 || promise.error > 0;
+}
+
+/// Combines two estimates of a squared bias: the pilot's measurement, and the value of
+/// the book's rooms.
 ///
 /// A short pilot measures mostly its own noise. The value of the book is then the
 /// better guess. Both are weighted by their inverse variances, where the standard error

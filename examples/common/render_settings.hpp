@@ -16,7 +16,9 @@
 
 #include "command_line.hpp"
 #include "exr_files.hpp"
+#include "layer_options.hpp"
 #include "ljus/image/image.hpp"
+#include "ljus/render/adaptive.hpp"
 #include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping_settings.hpp"
@@ -57,9 +59,9 @@ struct RenderRequest {
     bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    int more_rays = 0;          ///< Largest number of further rays of a pixel.
-    double disagreement = 0.75; ///< Deviation at which a pixel gets all further rays.
-    double exposure = 0;        ///< Exposure of PNG files, in stops.
+    /// Rays for pixels that need more than the others.
+    ljus::AdaptiveSettings adaptive{.more = 0, .batches = 1, .disagreement = 0.75};
+    double exposure = 0; ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// MIS weights of shadow rays and paths in a path tracer; none: no shadow rays.
@@ -68,16 +70,18 @@ struct RenderRequest {
     PassOptions passes{};          ///< Passes of progressive photon mapping.
     Promise promise{};             ///< The promised time or error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
-    std::string remarks{};         ///< Remarks on the photon passes, one per line.
-    std::string slice{};           ///< Text such as "3/16", or empty.
-    SliceNumber part{};            ///< Number of the slice.
-    std::string region{};          ///< Text such as "40,30,64,48", or empty.
-    std::string layers{};          ///< Text such as "normal,albedo", or empty.
-    std::string pixel{};           ///< Text such as "120,80", or empty.
-    std::string photons{};         ///< Kind of photons to draw as dots, or empty.
-    bool plan = false;             ///< Whether to print the passes that would run.
-    bool hooks = false;            ///< Whether to print the hooks of the scene's types.
-    bool quiet = false;            ///< Whether to print no progress bar and no text.
+    std::string remarks{};         ///< What was remarked, a line each.
+    std::string slice{};           ///< "3/16", or nothing.
+    SliceNumber part{};            ///< The same as a number.
+    std::string region{};          ///< "40,30,64,48", or nothing.
+    ljus::PixelRegion pixels{};    ///< Those of the slice, the region, or all.
+    std::string layers{};          ///< "normal,albedo", or nothing.
+    ljus::LayerSettings which{};   ///< The same as settings.
+    std::string pixel{};           ///< "120,80", or nothing.
+    std::vector<ljus::PhotonKind> photons{}; ///< Kinds to draw as dots, or nothing.
+    bool plan = false;                       ///< Print what would run.
+    bool hooks = false;                      ///< Print what the scene's types provide.
+    bool quiet = false; ///< No progress bar, and no text but remarks.
 };
 
 /// Adds every setting to the command line, with its name, the member that holds it, a
@@ -101,15 +105,16 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 
     line.group(common_groups[0], {"--width", "--height", "--rays", "--seed"});
     line.add("--region X,Y,W,H", r.region,
-             "Render only these pixels, counted from the upper left corner");
-    line.add("--layers LIST", r.layers,
-             "Save layers as well: normal, albedo, depth, position, object,\n"
-             "light-paths, or NAME=CLASS for a class of light paths, such as\n"
-             "glass=ES+.*L; in one .exr file, or in files NAME.*.pfm");
-    line.add("--more-rays", r.more_rays,
-             "Most further rays of a pixel, if the rays around it differ", 0, million);
-    line.add("--disagreement", r.disagreement,
-             "Relative standard deviation for which a pixel gets all of these", 1e-6,
+             "Only these pixels, counted from the upper left corner");
+    line.add(
+        "--layers LIST", r.layers,
+        "With normal, albedo, depth, position, object, light-paths, or NAME=CLASS\n"
+        "of light paths, as glass=ES+.*L: in NAME.exr, or in files NAME.*.pfm");
+    line.add("--more-rays", r.adaptive.more,
+             "Most further rays of a pixel, where the rays around it differ", 0,
+             million);
+    line.add("--disagreement", r.adaptive.disagreement,
+             "Relative standard deviation at which a pixel gets all of them", 1e-6,
              1e6);
     line.add("--sampling", r.picture.sampling, "Pattern of the rays in a pixel");
     line.add("--precision", r.in_double, "Precision of scene, photons and light",
@@ -238,8 +243,13 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
     line.add("--hooks", r.hooks,
              "Print which hooks the types of the scene have, and which they lack");
     line.add("--explain X,Y", r.pixel, "Print the paths of a pixel");
+    using enum PhotonKind;
     line.add("--show-photons", r.photons, "Draw photons as dots",
-             {"direct", "indirect", "shadow", "caustic", "all"});
+             {{"direct", {direct}},
+              {"indirect", {indirect}},
+              {"shadow", {shadow}},
+              {"caustic", {caustic}},
+              {"all", {direct, indirect, shadow, caustic}}});
 }
 
 /// Chooses the settings that the user did not give, by the scene, by the preset, and
@@ -254,12 +264,16 @@ inline void add_settings(CommandLine& line, RenderRequest& r) {
 ///         together.
 inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int height,
                             bool fog = false) {
+    if (fog && promised(r.promise))
+        throw std::invalid_argument(
+            "--seconds and --error choose among settings that cache irradiance, which "
+            "fog does not allow: give a --preset and --rays");
     Options options = line.fill({width, height, ljus::RenderSettings{}.samples});
     ljus::require_image_size(options.width, options.height);
     if (r.preset) {
         const ljus::PresetRays rays = preset_rays(*r.preset);
         options = line.fill({width, height, rays.first});
-        r.more_rays = rays.more;
+        r.adaptive.more = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
         // The default number of shadow rays is kept, not that of the preset.
         r.photon.irradiance = {.least = r.photon.irradiance.least};
@@ -269,19 +283,21 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     }
     if (r.passes.passes > 0) { // each pass has one ray per pixel
         options = line.fill({width, height, 1});
-        r.more_rays = 0;
+        r.adaptive.more = 0;
     }
     for (const auto& [option, given] : {std::pair{"--slice", r.part.count > 0},
                                         {"--region", !r.region.empty()},
                                         {"--layers", !r.layers.empty()}})
-        if (given && r.more_rays > 0)
-            throw std::invalid_argument(
-                "--more-rays is " + std::to_string(r.more_rays) + "; with " + option +
-                ", which takes the same rays in every "
-                "pixel, it must be 0: give --more-rays 0");
+        if (given && r.adaptive.more > 0)
+            throw std::invalid_argument("--more-rays is " +
+                                        std::to_string(r.adaptive.more) + "; with " +
+                                        option +
+                                        ", which takes the same rays in every "
+                                        "pixel, it must be 0: give --more-rays 0");
     const auto sampling = r.picture.sampling;
     r.picture = picture_settings(options);
     r.picture.sampling = sampling;
+    r.adaptive.first = r.picture.samples;
     r.photon.general.numbers = r.photon.caustics.numbers;
     r.photon.general.max_bounces = r.photon.caustics.max_bounces;
     for (ljus::PhotonPassSettings* pass : {&r.photon.caustics, &r.photon.general}) {
@@ -334,7 +350,7 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
     const auto json = to_json(line, r);
     for (const auto& [name, value] : json.items())
         if (name != "scene" && name != "exposure" && name != "passes" &&
-            name != "resume" && name != "every")
+            name != "resume" && name != "every" && name != "remarks")
             settings.emplace_back(name, value.dump());
     return picture_text(settings, r.scene_hash);
 }

@@ -22,6 +22,12 @@ ljus_break_it(NAME extremes-too-large HEADER inspect/scene_remarks.hpp TEST extr
     TO   ""
     CASES "extremes: from a millionth*")
 
+# A surface counts as near by the size of all that there is: a far lamp makes any one near.
+ljus_break_it(NAME extremes-camera-near HEADER inspect/scene_remarks.hpp TEST extremes
+    FROM "if (height <= detail::leaving_distance(point))"
+    TO   "if (height <= T(1e-6) * max_component(glm::abs(world.box().high)))"
+    CASES "extremes: a camera in*")
+
 # As many strips in a row as in a column, as in a picture that is square.
 ljus_break_it(NAME extremes-strips HEADER render/render.hpp TEST extremes
     FROM "const int right = region.x + region.width;"

@@ -10,6 +10,12 @@ ljus_break_it(NAME monte_carlo-standard-error HEADER inspect/estimate.hpp TEST e
     TO   "std::sqrt(variance(estimate))"
     CASES "estimate: four numbers*")
 
+# The tails of a normal distribution, for a standard error from few samples.
+ljus_break_it(NAME monte_carlo-student HEADER inspect/estimate.hpp TEST estimate
+    FROM "std::pow(1 + t * t / freedom, -count / 2)"
+    TO   "std::exp(-t * t / 2)"
+    CASES "estimate: how often*")
+
 # Both distances from the old mean.
 ljus_break_it(NAME monte_carlo-welford HEADER inspect/estimate.hpp TEST estimate
     FROM "from_old * (x - estimate.mean)"

@@ -90,16 +90,11 @@ refused "stands below --checkpoint" "${pass[@]}" --out k/k.png --checkpoint k
 "$render" "$scene" "${few[@]}" --out a.pfm
 "$render" "$scene" "${few[@]}" --seed 2 --out b.pfm
 cp tx.png c.png
-ln -s a.pfm soft.pfm
-refused "--out is 'c.png', which is read as" "$compare" c.png b.pfm --map flip --out c.png
+refused "--out is 'c.png', which is read as" "$compare" c.png b.pfm --out c.png
 refused "--out is 'tx.png', which is read as 'linked/hard.png'; $lost" "$compare" b.pfm \
-    linked/hard.png --map flip --out tx.png
-for blocks in a.pfm b.pfm soft.pfm here/c.png; do
-    refused "--blocks is '$blocks', which is read" "$compare" a.pfm b.pfm --pieces c.png \
-        --blocks "$blocks"
-done
-refused "$own" "$compare" a.pfm b.pfm --pieces a.pfm --blocks m.png --map flip --out m.png
-refused "cannot write" "$compare" a.pfm b.pfm --pieces b.pfm --blocks /proc/none/b.csv
+    linked/hard.png --out tx.png
+refused "--out is 'here/c.png', which is read" "$compare" a.pfm b.pfm --pieces c.png \
+    --out here/c.png
 "$render" "$scene" "${few[@]}" --slice 1/1 --out part
 cp part/balls-1-of-1.slice m.pfm.json
 refused "the file of settings beside --out is 'm.pfm.json', which is read as" \
@@ -110,11 +105,10 @@ rm m.pfm m.pfm.json
 sed 's/Kd 1 0 0/map_Kd tx.png/' tri.mtl >tx.mtl
 sed 's/tri.mtl/tx.mtl/' tri.obj >tx.obj
 for picture in tx.png here/tx.png linked/soft.png linked/hard.png; do
-    refused "--picture is '$picture', which is read as" "$inspect" tx.obj --picture "$picture"
+    refused "--out is '$picture', which is read as" "$inspect" tx.obj --out "$picture"
 done
-refused "its name must end in .png, .hdr, .pfm or .exr" "$inspect" tx.obj --picture tx.obj
-refused "cannot write" "$inspect" tx.obj --picture /proc/none/a.png
-refused "--camera needs --picture" "$inspect" tx.obj --camera one
+refused "cannot write into the folder 'tx.obj'" "$inspect" tx.obj --out tx.obj
+refused "cannot write" "$inspect" tx.obj --out /proc/none/a.png
 refused "--out is empty" "$render" named.json "${few[@]}" --out ""
 
 # The file of settings is tried before the work, as the picture is. (A file that nobody may

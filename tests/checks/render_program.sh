@@ -127,8 +127,16 @@ sed 's/"position": \[0, 1, 4.5\]/"position": [0, 0, 1]/' "$scene" >floor.json
 "$render" floor.json "${few[@]}" --quiet --out choice.pfm 2>err.txt
 grep -q '^camera.position lies in a surface' err.txt ||
     wrong "no remark on a camera in the floor: $(cat err.txt)"
+json_has '"remarks": "camera.position lies in a surface'
 "$render" "$scene" "${few[@]}" --quiet --out choice.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on nothing: $(cat err.txt)"
+# So is a mesh of which something is left out.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n' >torn.obj
+sed 's/^ "objects": \[/&{"type": "mesh", "file": "torn.obj", "material": "white"},/' \
+    "$scene" >torn.json
+"$render" torn.json "${few[@]}" --quiet --out choice.pfm 2>err.txt
+grep -q 'line 5: 1 faces refer to a vertex that does not exist' err.txt ||
+    wrong "no remark on a mesh: $(cat err.txt)"
 # So is a picture that no light has reached, here within a ball; a part of it is not.
 cat >dark.json <<'END'
 {"camera": {"position": [0, 0, 0.1], "look_at": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40},

@@ -250,6 +250,31 @@ template <std::floating_point T>
     return result;
 }
 
+/// How far the block means of several runs are from a reference, in their own standard
+/// errors: where noise is all, most are below 3; see chance_beyond().
+/// \param runs       At least 2 pictures of the same size, with independent seeds.
+/// \param reference  The reference, of that size, without noise.
+/// \param size       Side of a block in pixels, at least 1.
+/// \return At least 0; three numbers for each block, row by row. Infinity for a
+///         difference without noise.
+/// \throws std::invalid_argument  as block_statistics().
+template <std::floating_point T, std::floating_point U>
+[[nodiscard]] std::vector<double> block_deviations(const std::vector<ImageT<T>>& runs,
+                                                   const ImageT<U>& reference,
+                                                   int size = 10) {
+    const BlockStatistics found = block_statistics(runs, size);
+    detail::require_same_size(runs.front(), reference);
+    const ImageT<double> truth = block_means(reference, size);
+    std::vector<double> deviations;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double off = std::abs(found.mean.pixels[i][c] - truth.pixels[i][c]);
+            deviations.push_back(off == 0 ? 0
+                                          : off / found.standard_error.pixels[i][c]);
+        }
+    return deviations;
+}
+
 /// \}
 
 } // namespace ljus

@@ -471,9 +471,35 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     return remarks;
 }
 
-/// The warnings about a photon mapper: those of scene_remarks(), then those about its
-/// photon passes.
-/// \return The warnings, one per line, each with a line feed.
+/// The warnings about the place of a camera: in a scene without objects, or so near to
+/// a surface that rounding decides on which side of it the camera is.
+/// \param world     The closed scene.
+/// \param position  Of the camera, or of the middle of its lens.
+/// \return As scene_remarks().
+/// \cost Six rays.
+template <AnyWorld W, std::floating_point T>
+[[nodiscard, gnu::cold]] std::vector<std::string>
+camera_remarks(const W& world, const Vec3T<T>& position) {
+    if (world.size() == 0)
+        return {
+            "the scene has no objects: nothing but its sky, if it has one, is seen"};
+    for (int way = 0; way < 6; ++way) {
+        RayT<T> ray{.origin = position, .direction = Vec3T<T>{T(0)}};
+        ray.direction[way / 2] = way % 2 == 0 ? T(1) : T(-1);
+        const auto hit = closest_hit(world, ray);
+        if (!hit) continue;
+        const SurfacePointT<T> point = detail::surface_at(world, ray, *hit);
+        const T height = std::abs(glm::dot(point.normal, position - point.position));
+        if (height <= detail::leaving_distance(point))
+            return {"camera.position lies in a surface, which its rays may meet at "
+                    "once or not at all: move it to one side"};
+    }
+    return {};
+}
+
+/// The warnings about a photon mapper: those of scene_remarks(), then those of its
+/// passes.
+/// \return One per line, each with a line feed.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;

@@ -3,13 +3,16 @@
 /// \file ljus/io/mesh_file.hpp
 /// \brief The content of a mesh file, in a form that is the same for all formats.
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/image/texture.hpp"
+#include "ljus/io/file_beside.hpp"
 #include "ljus/io/mesh_report.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/spot_light.hpp"
@@ -256,6 +259,95 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
                 const RgbT<T>& radiance = RgbT<T>{0}) {
     for (const MeshPartT<T>& part : loaded.parts)
         scene.add(part.mesh, material, radiance);
+}
+
+/// What add_meshes() makes of a material if the scene lists what that takes, such as
+/// "matt (0.5, 0.5, 0.5), picture wood.png".
+[[nodiscard, gnu::cold]] inline std::string to_text(const MeshMaterial& is) {
+    std::string text = is.is_glass()    ? "glass of index " + to_text(is.index)
+                       : is.is_mirror() ? "mirror of " + to_text(Vec3(is.specular))
+                                        : "matt " + to_text(Vec3(is.diffuse));
+    if (is.is_mirror() && is.roughness > 0)
+        text += ", roughness " + to_text(is.roughness);
+    if (is.emission != glm::dvec3(0)) text += ", emits " + to_text(Vec3(is.emission));
+    const auto add_image = [&](const char* what, const MeshImage& image) {
+        if (!image.name.empty()) text += what + shown_path(image.name);
+    };
+    add_image(", picture ", is.picture);
+    add_image(", holes by ", is.mask);
+    add_image(", normals by ", is.normals);
+    return text;
+}
+
+/// The content of a mesh file as text: what was read, what add_meshes() makes of it,
+/// and each problem with its place in the file.
+/// \return Lines that end with a line feed.
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] std::string to_text(const LoadedMeshT<T>& loaded) {
+    const MeshContent& has = loaded.report.content;
+    BoxT<T> box;
+    double area = 0;
+    long long triangles = 0;
+    for (const MeshPartT<T>& part : loaded.parts) {
+        box = box_union(box, part.mesh.tree().box());
+        area += part.mesh.area_up_to().back();
+        triangles += part.mesh.size();
+    }
+    const auto digits = [](double number) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.6g", number);
+        return std::string(text.data());
+    };
+    std::string text = detail::join(
+        {"  vertices   ",
+         to_text(has.vertices),
+         ", ",
+         to_text(has.unused),
+         " of them in no face; ",
+         to_text(has.normals),
+         " normals, ",
+         to_text(has.uvs),
+         " texture coordinates\n  groups     ",
+         to_text(has.groups),
+         " in ",
+         to_text(has.objects),
+         " objects\n  faces      ",
+         to_text(has.faces),
+         ", ",
+         to_text(has.polygons),
+         " of them with more than three corners, which are cut; ",
+         to_text(has.flat_faces),
+         " without normals, ",
+         to_text(has.no_uv_faces),
+         " without texture coordinates\n  triangles  ",
+         to_text(triangles),
+         "\n  box        ",
+         to_text(box.low),
+         " to ",
+         to_text(box.high),
+         "\n  area       ",
+         digits(area),
+         "\n  closed     ",
+         has.closed ? "yes; volume " + digits(has.volume) : "no",
+         has.closed && has.volume < 0 ? ": the faces look inwards, it is inside out\n"
+                                      : "\n"});
+    for (const MeshPartT<T>& part : loaded.parts)
+        text += "  material   " +
+                (part.material.name.empty() ? "(none)" : shown(part.material.name)) +
+                ": " + to_text(static_cast<long long>(part.mesh.size())) +
+                " triangles, " + to_text(part.material) + "\n";
+    for (const MeshCameraT<T>& one : loaded.cameras)
+        text += "  camera     " + (one.name.empty() ? "(no name)" : shown(one.name)) +
+                " at " + to_text(one.camera.position) + "\n";
+    for (const auto& [lights, count] : {std::pair{"points", loaded.points.size()},
+                                        {"spots", loaded.spots.size()},
+                                        {"suns", loaded.suns.size()}})
+        if (count > 0)
+            text +=
+                detail::join({"  lights     ", to_text(static_cast<long long>(count)),
+                              " ", lights, "\n"});
+    const std::string odd = to_text(loaded.report);
+    return text + (odd.empty() ? "nothing is odd\n" : "odd:\n" + odd);
 }
 
 /// \}
