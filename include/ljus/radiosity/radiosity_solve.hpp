@@ -35,7 +35,8 @@ struct SolveSettings {
     /// flux.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
-    int threads = 0;        ///< For RadiositySolver::jacobi; as in ParallelSettings.
+    /// Threads of RadiositySolver::jacobi, as in ParallelSettings.
+    int threads = 0;
 };
 
 /// The radiosity of all patches.

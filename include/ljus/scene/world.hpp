@@ -241,8 +241,8 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may be in an absorbing body: whether it lies in the bounding box
-    /// of all such bodies. With fog or priorities, it is the box of all transparent
+    /// Whether a point may be in an absorbing body. The point is tested against the
+    /// bounding box of all such bodies or, with fog or priorities, of all transparent
     /// bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
