@@ -26,7 +26,7 @@ struct NoTrace {
 template <std::floating_point T>
 struct NearestHitT {
     ShapeHitT<T> at{};                                                ///< The hit.
-    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Primitive.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Its index.
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 

@@ -16,7 +16,8 @@ namespace ljus {
 /// \brief One mesh in many places. Chapter: \ref ch_instances.
 ///
 /// An instance is a reference to a mesh with an affine map. The inverse map transforms
-/// a ray to the mesh \cite rubin1980. A scene that lists Instance keeps the meshes:
+/// a ray to the space of the mesh \cite rubin1980. A scene that lists Instance keeps
+/// the meshes:
 ///
 ///     const auto knot = scene.add(Mesh(data)); // kept once, and not visible itself
 ///     for (const Affine& place : places) scene.add(Instance(knot, place), glass);
@@ -120,9 +121,9 @@ public:
 
     /// The mesh.
     [[nodiscard]] const MeshT<T>& mesh() const noexcept { return mesh_.get(); }
-    /// From the mesh to the scene.
+    /// The map from the mesh to the scene.
     [[nodiscard]] const AffineT<T>& place() const noexcept { return place_; }
-    /// From the scene to the mesh.
+    /// The map from the scene to the mesh.
     [[nodiscard]] const AffineT<Wide>& inverse_place() const noexcept {
         return inverse_;
     }
@@ -172,8 +173,8 @@ using Instance = InstanceT<float>; ///< InstanceT in float.
 
 namespace detail {
 
-/// A ray transformed to the mesh. The direction is not normalised, so that t is the
-/// same for the mesh and in the scene.
+/// A ray transformed to the space of the mesh. The direction is not normalised, so that
+/// t is the same for the mesh and in the scene.
 // [ray_at_mesh]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_at_mesh(const InstanceT<T>& instance,
@@ -191,8 +192,8 @@ template <std::floating_point T>
 /// Transforms a point of the mesh to the scene.
 ///
 /// The error of the result includes the rounding of a ray that leaves the point. When
-/// this ray is transformed to the mesh, its origin and its direction are rounded, and
-/// the inverse map is inexact.
+/// this ray is transformed to the space of the mesh, its origin and its direction are
+/// rounded, and the inverse map is inexact.
 /// \param instance  The instance.
 /// \param part      The index of the triangle.
 /// \param local     The point on the mesh; its normal is not used.
@@ -328,7 +329,8 @@ template <std::floating_point T>
 }
 
 /// Samples a point by sample_area(), for an observer at `from`. The error of the point
-/// includes the rounding of a shadow ray that is transformed to the mesh.
+/// includes the rounding of the shadow ray when it is transformed to the space of the
+/// mesh.
 /// \return The point and its density per steradian at the observer.
 template <std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const InstanceT<T>& instance,

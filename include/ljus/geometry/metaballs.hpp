@@ -33,8 +33,8 @@ struct MetaballsT {
 using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 // [metaballs]
 
-/// The field f of metaballs at a point, in double: positive inside, 0 on the surface,
-/// -L far away.
+/// The field f of metaballs at a point, in double. It is positive inside, 0 on the
+/// surface, and -level far away.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> field(const MetaballsT<T>& balls, const Vec3T<WideT<T>>& x) {
     using C = WideT<T>;

@@ -23,16 +23,16 @@ struct Watertight {};
 
 namespace detail {
 
-/// The shear that maps a ray's direction D to the z axis. It is the same for all
-/// triangles.
+/// The shear that maps a ray's direction to the z axis, after an exchange of the axes.
+/// It is the same for all triangles.
 template <std::floating_point T>
 struct ShearT {
     int x = 0;     ///< The axis that becomes x.
     int y = 1;     ///< The axis that becomes y.
     int z = 2;     ///< The axis of the direction's largest component.
-    T sx = T(0);   ///< \f$ D_x / D_z \f$, in [-1, 1].
-    T sy = T(0);   ///< \f$ D_y / D_z \f$, in [-1, 1].
-    double sz = 1; ///< \f$ 1 / D_z \f$, which may exceed the range of T.
+    T sx = T(0);   ///< x/z of the direction after the exchange, in [-1, 1].
+    T sy = T(0);   ///< y/z of the direction after the exchange, in [-1, 1].
+    double sz = 1; ///< 1/z after the exchange, which may exceed the range of T.
 };
 
 } // namespace detail

@@ -18,9 +18,11 @@ namespace detail {
 
 /// The range of exposures of HDR-FLIP.
 struct Exposures {
-    double first = 0; ///< In stops; at this one the brightest pixel is nearly white.
-    double last = 0;  ///< In stops; at this one half of the pixels are nearly white.
-    int count = 2;    ///< Number of exposures, about one per stop, at least 2.
+    /// The exposure, in stops, at which the brightest pixel is nearly white.
+    double first = 0;
+    /// The exposure, in stops, at which half of the pixels are at least nearly white.
+    double last = 0;
+    int count = 2; ///< Number of exposures, about one per stop, at least 2.
 };
 
 /// The response of a film to light x, by Narkowicz's fit of the ACES curve, without the

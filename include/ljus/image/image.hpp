@@ -58,7 +58,7 @@ template <std::floating_point T = float>
 }
 
 /// Requires that an image has width * height pixels.
-/// \throws std::invalid_argument  if the number of pixels is another one, or as
+/// \throws std::invalid_argument  if the number of pixels differs, or as
 ///         require_image_size().
 template <std::floating_point T>
 void check(const ImageT<T>& image) {

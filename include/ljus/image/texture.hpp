@@ -34,7 +34,8 @@ template <std::floating_point T>
 struct PlaneMapT {
     Vec3T<T> origin{T(0)};             ///< The point with (u, v) = (0, 0).
     Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< From u = 0 to u = 1, in scene units.
-    Vec3T<T> edge_v{T(0), T(0), T(1)}; ///< From v = 0 to v = 1; at a right angle.
+    /// From v = 0 to v = 1, in scene units; perpendicular to `edge_u`.
+    Vec3T<T> edge_v{T(0), T(0), T(1)};
 };
 using PlaneMap = PlaneMapT<float>; ///< PlaneMapT in float.
 
@@ -52,7 +53,7 @@ struct UvMapT {
     static constexpr bool uses_uv = true; ///< See texture_coordinates().
     Vec2T<T> scale{T(1)};                 ///< Repetitions per unit of u and v.
     Vec2T<T> turn{T(1), T(0)};            ///< Cosine and sine of the angle of rotation.
-    Vec2T<T> offset{T(0)};                ///< Displacement, in repetitions.
+    Vec2T<T> offset{T(0)};                ///< Displacement of u and v; 1 is a period.
 };
 using UvMap = UvMapT<float>; ///< UvMapT in float.
 
@@ -60,7 +61,8 @@ using UvMap = UvMapT<float>; ///< UvMapT in float.
 template <typename M>
 concept UsesUv = M::uses_uv;
 
-/// The coordinates (u, v) of a point projected onto a plane, in repetitions.
+/// The coordinates (u, v) of a point projected onto a plane. The texture repeats
+/// whenever u or v grows by 1.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -77,7 +79,7 @@ template <std::floating_point T>
     return globe_coordinates(place - map.center);
 }
 
-/// The coordinates (u, v) of a point on its own shape, in repetitions.
+/// The coordinates (u, v) of a point on its own shape, scaled, rotated and displaced.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const UvMapT<T>& map, const Vec3T<T>& /*place*/,
                                        const Vec2T<T>& uv) noexcept {
@@ -139,7 +141,7 @@ struct CheckerT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
     Map map{};                                   ///< Maps a point to (u, v).
     RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
-    RgbT<T> odd{T(0.1)};  ///< The colour of the squares beside that.
+    RgbT<T> odd{T(0.1)};  ///< The colour of the squares beside that one.
     int columns = 2;      ///< The number of squares from u = 0 to 1; even.
     int rows = 2;         ///< The number of squares from v = 0 to 1; even.
 };

@@ -31,7 +31,7 @@ struct PhotonCensus {
         return kinds[static_cast<std::size_t>(kind)];
     }
 
-    /// The photons on surfaces that carry light: all kinds but shadow photons.
+    /// The direct, caustic and indirect photons together.
     [[nodiscard]] PhotonCount light() const noexcept {
         PhotonCount sum;
         for (const PhotonKind kind :

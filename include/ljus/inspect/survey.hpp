@@ -38,7 +38,7 @@ struct Plan {
     PlanItem irradiance;      ///< Irradiance points, which gather rays look up.
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Thin surfaces, through which paths pass.
-    PlanItem tree;            ///< A tree over the shapes; off: a loop over them.
+    PlanItem tree;            ///< A tree over the shapes, instead of a loop over them.
     /// Warnings about the scene, each with a remedy; most scenes have none.
     std::vector<std::string> remarks;
 

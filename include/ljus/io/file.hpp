@@ -115,7 +115,7 @@ private:
     FilesRead* outer_ = current();
 };
 
-/// Reads a file piece by piece. A FilesRead lists the file.
+/// Reads a file piece by piece. If a FilesRead exists, the file is added to its list.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
 /// \param use   Called as use(text, last) with a piece, and whether it is the last one;
@@ -169,7 +169,7 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     if (notes != nullptr) notes->files_[number].hash = hash;
 }
 
-/// Reads a file. A FilesRead lists the file.
+/// Reads a file. If a FilesRead exists, the file is added to its list.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
 /// \param begin The bytes with which the file must begin. They are tested before the

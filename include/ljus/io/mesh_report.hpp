@@ -61,11 +61,11 @@ struct MeshCount {
 
 /// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
-    long long vertices = 0;    ///< Positions, the lines v of an OBJ file.
-    long long normals = 0;     ///< Normals, the lines vn.
-    long long uvs = 0;         ///< Texture coordinates, the lines vt.
-    long long objects = 0;     ///< Objects, the lines o.
-    long long groups = 0;      ///< Groups, the lines g.
+    long long vertices = 0;    ///< Positions: lines of an OBJ file that begin with v.
+    long long normals = 0;     ///< Normals: lines that begin with vn.
+    long long uvs = 0;         ///< Texture coordinates: lines that begin with vt.
+    long long objects = 0;     ///< Objects: lines that begin with o.
+    long long groups = 0;      ///< Groups: lines that begin with g.
     long long faces = 0;       ///< Faces that are used.
     long long polygons = 0;    ///< Faces of more than three corners, which are cut.
     long long flat_faces = 0;  ///< Faces whose normals are missing or not used.

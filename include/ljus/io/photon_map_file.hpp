@@ -244,7 +244,7 @@ inline void save_photon_map(const std::string& path, const PhotonMap& map,
 /// The settings of open_photon_map().
 struct PhotonMapFileSettings {
     std::uint64_t key = 0;     ///< The key that the file must have.
-    bool check = true;         ///< Whether the whole file is read and checked at once.
+    bool check = true;         ///< Whether the whole file is read and checked first.
                                ///< Otherwise damage is not noticed.
     bool single_pages = false; ///< Whether a search reads only the pages that it needs;
                                ///< for a map larger than the memory.

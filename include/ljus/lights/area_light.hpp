@@ -19,7 +19,7 @@ struct LampT {
     RgbT<T> radiance{T(0)};          ///< Emitted radiance, W/(m^2 sr).
     Vec3T<T> normal{T(0)};           ///< Unit normal of a flat shape, otherwise 0.
     T area = T(0);                   ///< In squared scene units.
-    bool inside_out = false;         ///< True: it emits against the normal.
+    bool inside_out = false;         ///< True if it emits opposite to the normal.
     std::vector<double> area_sums{}; ///< area_sums() of a shape that has this function.
 };
 

@@ -42,7 +42,7 @@ enum class Photometry : std::uint8_t {
 /// Intensities at a grid of angles. Between the angles they are interpolated
 /// bilinearly. Outside the range of the angles the intensity is 0.
 struct IntensityTable {
-    Photometry type = Photometry::c; ///< Determines the pole of the angles.
+    Photometry type = Photometry::c; ///< Type of the photometer that measured them.
     /// Polar angles in degrees, within [0, 180]: at least two, in increasing order.
     std::vector<double> polar{};
     /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, over
@@ -68,8 +68,8 @@ struct GoniometricLightT {
     /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
     /// need not be perpendicular to the direction, but must not be parallel to it.
     Vec3T<T> reference{0, 0, -1};
-    /// Watts per lumen, for each channel. With the default, 683 times the luminance of
-    /// a rendered radiance is in cd/m^2, because a watt of green light is 683 lumens.
+    /// Watts per lumen, for each channel. A watt of green light is 683 lumens. With the
+    /// default, the luminance() of a picture times 683 is therefore in cd/m^2.
     RgbT<T> watts_per_lumen{T(1) / T(683)};
 };
 using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in float.
@@ -77,9 +77,10 @@ using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in flo
 /// A goniometric light as its scene stores it.
 template <std::floating_point T>
 struct GoniometricInSceneT {
-    using Scalar = T;              ///< The precision of its numbers.
-    Vec3T<T> position{T(0)};       ///< In scene units.
-    FrameT<T> frame{};             ///< The normal is the pole, the tangent azimuth 0.
+    using Scalar = T;        ///< The precision of its numbers.
+    Vec3T<T> position{T(0)}; ///< In scene units.
+    /// The normal points to the pole, and the tangent in the direction of azimuth 0.
+    FrameT<T> frame{};
     std::vector<double> polar{};   ///< Polar angles in radians.
     std::vector<double> azimuth{}; ///< Azimuths in radians.
     std::vector<double> candela{}; ///< Intensities, as in an IntensityTable.

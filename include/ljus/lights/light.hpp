@@ -30,6 +30,7 @@ namespace ljus {
 ///
 /// A light is near or distant. A near light (NearLight) emits photons from its points,
 /// and has the functions
+///
 /// | function                            | returns                                    |
 /// |-------------------------------------|--------------------------------------------|
 /// | emission_point(light, u, time)      | a point; on a surface a SurfacePointT      |

@@ -20,17 +20,18 @@ namespace ljus {
 /// \addtogroup picture_lamp
 /// \{
 
-/// A textured lamp as a World stores it. A World makes it from an object with a
-/// radiance whose material ShowsPicture. The points of the lamp are sampled in
-/// proportion to the brightness of their pixels.
+/// A textured lamp as a World stores it. A World makes such a lamp from an object that
+/// has a radiance and a material with a picture; see ShowsPicture. The points of the
+/// lamp are sampled in proportion to the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
     using Scalar = T;            ///< The precision of its numbers.
     QuadT<T> frame{};            ///< The quad, or the square around the disc.
     Vec3T<T> normal{T(0)};       ///< Unit normal on the side that shines.
-    bool round = false;          ///< True for a disc: only the circle shines.
+    bool round = false;          ///< True for a disc: the frame's corners do not shine.
     ImageT<T> picture{};         ///< Radiance, W/(m^2 sr).
-    PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside a disc.
+    PiecewiseConstant2D cells{}; ///< The brightness of each pixel. It is 0 for pixels
+                                 ///< of the frame that lie outside a round lamp.
     double pixel_area = 0;       ///< In squared scene units.
     RgbT<T> flux{T(0)};          ///< W.
 };
@@ -86,7 +87,7 @@ template <std::floating_point T>
 /// \param shape       A quad or a disc.
 /// \param picture     The picture. Its colours are factors of the radiance.
 /// \param radiance    W/(m^2 sr).
-/// \param inside_out  True if the lamp shines against its normal.
+/// \param inside_out  True if the lamp shines on the side opposite to the normal.
 /// \throws std::invalid_argument  if no pixel shines, or if the shape is not a quad or
 ///         a disc.
 /// \cost 8 bytes per pixel besides the picture.
@@ -193,8 +194,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Samples a point of the lamp for a shadow ray.
-/// \return The sample. Nothing if `from` lies behind the lamp. For a disc, a point in a
-///         pixel on the edge may lie outside the disc; then also nothing.
+/// \return The sample. Nothing if `from` lies behind the lamp, or if the sampled point
+///         lies outside a round lamp, which can happen in a pixel on its edge.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,

@@ -18,8 +18,10 @@ struct SpotLightT {
     Vec3T<T> position{T(0)};      ///< In scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
-    T inner_degrees = T(20);      ///< Angle to the axis: end of the constant part.
-    T outer_degrees = T(30);      ///< Angle to the axis: end of the cone; 0.001 to 180.
+    /// The inner angle, between the axis and the edge of the constant part.
+    T inner_degrees = T(20);
+    /// The outer angle, between the axis and the edge of the cone; in [0.001, 180].
+    T outer_degrees = T(30);
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 

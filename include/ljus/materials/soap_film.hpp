@@ -21,9 +21,9 @@ namespace ljus {
 
 /// The function that computes the colours of a film.
 enum class FilmColor : std::uint8_t {
-    table,             ///< look_up() in a table.
-    three_wavelengths, ///< film_three()
-    preintegrated      ///< film_preintegrated()
+    table,             ///< The function look_up(), with a table.
+    three_wavelengths, ///< The function film_three().
+    preintegrated      ///< The function film_preintegrated().
 };
 
 /// A soap film in air. Its thickness falls with the height z, as in films that hang
@@ -36,7 +36,7 @@ struct SoapFilmT {
     T index = T(1.33);    ///< Index of the liquid, at least 1.
     T scale = T(0);       ///< h in scene units; 0: constant thickness.
     Vec3T<T> level{T(0)}; ///< A point at height z = 0.
-    Vec3T<T> up{T(0), T(0), T(1)};              ///< Against gravity; unit vector.
+    Vec3T<T> up{T(0), T(0), T(1)};              ///< Unit vector opposite to gravity.
     FilmColor color = FilmColor::preintegrated; ///< How the colours are computed.
     FilmTableT<T> table{}; ///< From bake_film_table(index), for FilmColor::table.
 };

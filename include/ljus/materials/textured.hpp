@@ -22,10 +22,10 @@ namespace ljus {
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< See MaterialWrapper.
     /// True if the texture or the base uses uv.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
-    Base base{};       ///< White, if the texture's colour is to be kept.
+    Base base{};       ///< The base; white, if the texture's colour is to be kept.
     Texture texture{}; ///< Colours within [0, 1].
 };
 

@@ -20,7 +20,7 @@ namespace detail {
 /// \defgroup lanes Lanes
 /// \brief Eight numbers in loops of constant length, which compilers turn into vector
 /// instructions. Compilers fail to do so if the body of a loop is long, chooses between
-/// products, or shifts each lane by another number of bits.
+/// products, or shifts each lane by a different number of bits.
 /// \{
 
 inline constexpr int lane_count = 8;

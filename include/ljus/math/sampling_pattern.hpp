@@ -46,7 +46,7 @@ struct Strata {
 /// \param i      The index, in [0, count).
 /// \param count  From 1 to 2^31.
 /// \param key    The number of the permutation.
-/// \return A number in [0, count), another one for each i. Over all keys, each value is
+/// \return A number in [0, count), different for each i. Over all keys, each value is
 ///         equally likely.
 /// \cost At most two hashes on average.
 /// \cite kensler2013
@@ -100,8 +100,10 @@ template <std::floating_point T>
 /// requested number n of points. Each point alone is uniform over the pixel, so that
 /// the pattern does not change the mean of a pixel.
 enum class Sampling : std::uint8_t {
-    random,         ///< Independent points.
-    jittered,       ///< One point per cell of a grid, or one per column and row.
+    random, ///< Independent points.
+    /// One point in each cell of a grid. If the grid would be too long and narrow, one
+    /// point in each of n columns and in each of n rows.
+    jittered,
     multi_jittered, ///< Jittered, with one point in each of n strips along x and y.
     sobol           ///< Sobol points with Owen's scrambling.
 };
@@ -139,7 +141,7 @@ namespace detail {
 /// point in the last row has one strip more than the other columns. These wider columns
 /// are spread evenly over the pixel from a random start. Finally all strips are shifted
 /// cyclically by the same random number, so that each strip is equally likely.
-/// \return The strip, in [0, points), another one for each i.
+/// \return The strip, in [0, points), different for each i.
 /// \cost Two calls of shuffled() and five divisions.
 [[nodiscard]] constexpr std::uint32_t
 strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {

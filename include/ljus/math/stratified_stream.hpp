@@ -17,8 +17,8 @@ namespace ljus {
 
 /// The random numbers of one ray of a pixel. In each draw, the picture's pattern
 /// spreads the numbers of the pixel's rays evenly over the interval or the square. Each
-/// draw permutes the rays in another way. A ray's time, for example, therefore does not
-/// depend on its position on the lens.
+/// draw permutes the rays in a different way. A ray's time, for example, therefore does
+/// not depend on its position on the lens.
 struct StratifiedStream {
     Pattern pattern{};     ///< The pattern of the pixel's rays.
     int ray = 0;           ///< The ray's number, in [0, pattern.points).

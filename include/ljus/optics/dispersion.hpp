@@ -28,7 +28,7 @@ namespace ljus {
 template <std::floating_point T>
 struct SellmeierT {
     std::array<T, 4> b{}; ///< B: strengths of up to four resonances, no unit.
-    std::array<T, 4> c{}; ///< C: squares of their wavelengths, micrometres^2.
+    std::array<T, 4> c{}; ///< C: squares of the resonant wavelengths, in um^2.
 };
 using Sellmeier = SellmeierT<float>; ///< SellmeierT in float.
 

@@ -128,7 +128,8 @@ template <std::floating_point T>
 ///     \cos 2k\varphi . \f]
 ///
 /// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
-/// defines. visible_swing() gives the eye's mean of each cosine. The sum ends at k = 3.
+/// defines. Each cosine is replaced by its mean over the spectrum, visible_swing(). The
+/// sum ends at k = 3.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.

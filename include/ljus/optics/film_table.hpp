@@ -21,13 +21,14 @@ namespace ljus {
 /// in the square root of the path, because fringes fade with longer paths.
 template <std::floating_point T>
 struct FilmTableT {
-    T index = T(0);               ///< Index of the films; 0 if there is no table.
-    int cosines = 0;              ///< Columns, for cosines from 0 to 1.
-    int paths = 0;                ///< Rows, for paths from 0 to `longest`.
-    T longest = T(0);             ///< Path in nm above which colours have faded.
-    std::vector<RgbT<T>> cells{}; ///< Row by row, and a row of means; in [0, 1].
-    int greyed = 0;               ///< Number of cells that into_gamut() has changed.
-    T worst = T(0);               ///< The most negative channel before into_gamut().
+    T index = T(0);   ///< Index of the films; 0 if there is no table.
+    int cosines = 0;  ///< Columns, for cosines from 0 to 1.
+    int paths = 0;    ///< Rows, for paths from 0 to `longest`.
+    T longest = T(0); ///< Path in nm above which colours have faded.
+    /// The colours in [0, 1], row by row. The last row holds the means over all phases.
+    std::vector<RgbT<T>> cells{};
+    int greyed = 0; ///< Number of cells that into_gamut() has changed.
+    T worst = T(0); ///< The most negative channel before into_gamut().
 };
 using FilmTable = FilmTableT<float>; ///< FilmTableT in float.
 

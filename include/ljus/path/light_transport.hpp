@@ -76,9 +76,11 @@ struct ExpressionLog {
 /// A log that sums the terms of several classes of paths separately.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{};  ///< One for each class.
-    std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
-    std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
+    std::vector<ExpressionLog<T>> logs{}; ///< One for each class.
+    /// For each delayed term, one bit per class: 1 if the term belongs to the class.
+    std::vector<std::uint64_t> takers{};
+    /// delay() writes the number of delayed terms so far to this address.
+    std::uint32_t* next_delayed = nullptr;
 
     /// Makes a log.
     /// \param classes  The classes of paths, at most 64; must outlive the log.

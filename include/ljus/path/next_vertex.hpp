@@ -31,7 +31,7 @@ template <std::floating_point T>
 struct VertexT {
     SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
     FrameT<T> frame{};             ///< Shading frame, in which materials work.
-    Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit, to the previous vertex, in the frame.
+    Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit vector to the previous vertex, in `frame`.
     Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
     ObjectId id{};             ///< Number of the object.
     ObjectT<T> object{};       ///< Material and emission of the object.
@@ -366,14 +366,15 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a material that is a thin surface. False if the scene only lists
-/// such a type.
+/// Whether a scene has a material that is a thin surface. A type of thin surface in the
+/// list of materials is not enough.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has a shape that moves. False if the scene only lists such a type.
+/// Whether a scene has a shape that moves. A type of moving shape in the list of shapes
+/// is not enough.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {

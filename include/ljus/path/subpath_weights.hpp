@@ -187,7 +187,8 @@ struct TurnT {
     T shading = T(0);  ///< |cosine| of the direction and the shading normal.
     double cosine = 0; ///< |cosine| of the direction and the geometric normal.
     double pdf = 0;    ///< Density of the direction, per steradian.
-    double back = 0;   ///< Density of `wo` on the opposite way, per steradian.
+    /// Density of `wo` for a path that arrives from this direction, per steradian.
+    double back = 0;
 };
 
 /// Computes a TurnT.

@@ -146,8 +146,8 @@ template <std::floating_point T, typename AimOf>
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit vector.
-    T pdf = T(0);             ///< Per steradian, times the probability of the object.
-    ObjectId target{};        ///< The object.
+    T pdf = T(0);      ///< Density per steradian, times the probability of the object.
+    ObjectId target{}; ///< The object.
 };
 
 /// The random numbers of an aimed photon, in the order in which they are drawn.

@@ -193,7 +193,7 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 /// Sums the flux that arrives on one side of a surface within a fixed radius, eight
 /// photons at a time.
 /// \param point     Point of a surface; its position and normal are used.
-/// \param side      Unit normal on this side. Photons that travel against it count.
+/// \param side      Unit normal on this side. Photons that arrive on it are summed.
 /// \param kinds     The kinds of photons that count.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.
@@ -229,8 +229,8 @@ template <std::floating_point T, KernelLike<T> K>
 /// \param map     The photons.
 /// \param point   Point of a surface. Its normal is compared with the normals of the
 ///                photons.
-/// \param side    The normal of the point or its opposite. Photons that travel against
-///                `side` count.
+/// \param side    The normal of the point or its opposite. Photons that arrive on this
+///                side are summed.
 /// \param gather  The settings.
 /// \param kinds   The kinds of photons that count.
 /// \return W/m^2; 0 without photons.

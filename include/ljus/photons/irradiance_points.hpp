@@ -28,7 +28,7 @@ namespace ljus {
 /// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< From all light, direct light too; W/m^2.
+    RgbT<T> irradiance{T(0)};          ///< Of all light, including direct light, W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal on the lit side.
 };
 
@@ -162,8 +162,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 /// The irradiance at a lookup point: direct light by shadow rays, caustics and indirect
 /// light from the maps.
-/// \param general   The general map. Its indirect photons count, except for lookup
-///                  points.
+/// \param general   The general map. The indirect photons that are not lookup points
+///                  are used.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
 /// \param radius    The largest radius of an estimate, in scene units.

@@ -106,11 +106,13 @@ template <typename N>
     return (n[axis] < 0) == (side < 0) ? axis : axis + 3;
 }
 
-/// The facing of a side of a surface, from a normal in three bytes.
+/// The coordinate axis that is nearest to the normal of a side of a surface. The normal
+/// is given in three bytes.
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
     return facing(std::abs(n.x), std::abs(n.y), std::abs(n.z), n, side);
 }
-/// The facing of a side of a surface, from a unit normal.
+/// The coordinate axis that is nearest to the normal of a side of a surface. The normal
+/// is given as a unit vector.
 template <std::floating_point T>
 [[nodiscard]] int facing(const Vec3T<T>& n, int side) noexcept {
     const auto size = [](T c) { return int(T(127) * std::abs(c) + T(0.5)); };

@@ -232,7 +232,8 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
 }
 
 /// Emits and traces some of the paths of a pass, by one thread. Several processes can
-/// so share a pass. Their photons, joined in order, are the photons of the whole pass.
+/// thus share a pass. Their photons, joined in order, are the photons of the whole
+/// pass.
 /// \param world  The closed scene, with at least one light.
 /// \param map    The kind of map.
 /// \param pass   The settings of the whole pass, without `threads`, `progress` and

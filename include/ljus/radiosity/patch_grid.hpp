@@ -37,7 +37,7 @@ struct PatchGrid {
     ObjectId object{};                              ///< The object.
     detail::GridKind kind = detail::GridKind::quad; ///< How the shape is divided.
     bool back = false;         ///< True for the side of the object that does not emit.
-    bool inward = false;       ///< True for the side against the shape's normal.
+    bool inward = false;       ///< True for the side opposite to the shape's normal.
     std::uint32_t columns = 1; ///< Number of columns, at least 1.
     std::uint32_t rows = 1;    ///< Number of rows; equal to `columns` for a triangle.
     std::uint32_t first = 0;   ///< The index of the first patch of this grid.

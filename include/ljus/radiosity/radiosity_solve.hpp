@@ -31,10 +31,12 @@ enum class RadiositySolver : std::uint8_t {
 /// The solver, and when it stops.
 struct SolveSettings {
     RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
-    /// The solver stops when the unshot flux is this fraction of the emitted flux.
+    /// The solver stops when the unshot flux is at most this fraction of the emitted
+    /// flux.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
-    int threads = 0;        ///< For RadiositySolver::jacobi; as in ParallelSettings.
+    /// Threads of RadiositySolver::jacobi, as in ParallelSettings.
+    int threads = 0;
 };
 
 /// The radiosity of all patches.

@@ -195,8 +195,9 @@ struct GatheredT {
     RgbT<T> irradiance{T(0)};          ///< Irradiance of indirect light alone, W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
-    T spacing = T(0);  ///< Distance to the k-th nearest point of the cache with a
-                       ///< similar normal.
+    /// Distance to the k-th nearest point of the cache with a similar normal, where k
+    /// is GatherSettings::nearest.
+    T spacing = T(0);
 };
 
 /// Gathers the indirect irradiance at a vertex, by stratified rays with a density

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/lamp_shares.hpp
-/// \brief The number of photons of each lamp, by how much of its light a picture shows.
+/// \brief Gives more photons to the lamps whose light contributes more to the picture.
 
 #include <cmath>
 #include <vector>
@@ -60,11 +60,11 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
     return make_photon_map(places, 1);
 }
 
-/// Settings in which lamps share the photons by how much of their light the picture
-/// shows. A pilot pass measures this, see pilot_lights(); each of its photons is
-/// weighted with the importance of the seen_places() around it. A lamp whose light the
-/// picture does not show, such as one in a closed cupboard, keeps a tenth of its share
-/// by power.
+/// Changes the settings so that a lamp whose light contributes more to the picture
+/// sends more photons. A pilot pass measures the contribution, see pilot_lights(). Each
+/// of its photons is weighted with the importance of the seen_places() around it. A
+/// lamp whose light the picture does not show, such as one in a closed cupboard, sends
+/// a tenth of the photons that it would send if the shares were proportional to power.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  The settings to change; shares that they contain are kept.

@@ -93,7 +93,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The largest number of surfaces that a path to a normal or an albedo meets.
+/// A path that looks for a normal and an albedo ends at this number of surfaces, even
+/// on a mirror.
 inline constexpr int max_guide_depth = 16;
 
 /// The contribution of one ray to the layers of normals and albedos.

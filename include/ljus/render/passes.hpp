@@ -118,7 +118,8 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The skip settings, without the rules whose passes do not run.
+/// The settings for skipping shadow rays and indirect rays. A rule that needs photons
+/// of a pass that does not run is turned off.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;

@@ -52,9 +52,14 @@ namespace ljus {
 /// Each has its own header and is listed by abilities<...>. An ability that is not
 /// listed costs nothing.
 /// \{
-struct Gathering; ///< For IndirectLight::gather, cache: ljus/render/gathering.hpp.
-struct Skipping;  ///< For SkipSettings: ljus/render/skipping.hpp.
-struct Budgeting; ///< For CausticBudget: ljus/render/budgeting.hpp.
+
+/// IndirectLight::gather and IndirectLight::cache need this ability, which is defined
+/// in ljus/render/gathering.hpp.
+struct Gathering;
+/// SkipSettings need this ability, which is defined in ljus/render/skipping.hpp.
+struct Skipping;
+/// A CausticBudget needs this ability, which is defined in ljus/render/budgeting.hpp.
+struct Budgeting;
 /// \}
 
 /// The template arguments of a renderer: its abilities, and its random stream.
@@ -615,7 +620,8 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
 
 namespace detail {
 
-/// Adds the light that fog scatters towards a ray of a camera path, and dims the path.
+/// Adds the light that fog scatters towards the eye along a ray of a camera path, and
+/// dims the path.
 ///
 /// The path itself is not scattered. Shadow rays start at two random points of its ray.
 /// One point is chosen by equi-angular sampling, the other by a free flight that may

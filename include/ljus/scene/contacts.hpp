@@ -78,8 +78,8 @@ inline constexpr std::uint32_t no_contact = 0xffffffffu;
 /// Two objects that share an area or a point.
 struct Contact {
     std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
-    std::array<std::uint32_t, 2>
-        next{};             ///< The next contact of each in Contacts::pairs.
+    /// For each of the two objects, the index of its next contact in Contacts::pairs.
+    std::array<std::uint32_t, 2> next{};
     BoxT<double> box{};     ///< A box around the shared place.
     bool over_area = false; ///< Whether they share an area, not only points.
     bool alike = false;     ///< Whether their outsides are on the same side there.
@@ -90,7 +90,7 @@ struct Contact {
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
     ContactKind kind = ContactKind::opaque; ///< The kind of its surface.
-    ContactKey key{};                       ///< The smallest key is met.
+    ContactKey key{};                       ///< A ray meets the smallest key.
     std::uint32_t contact = no_contact;     ///< The object's first contact.
 };
 
@@ -248,7 +248,8 @@ struct ContactSearch {
     std::span<const ContactObject> objects; ///< In the order of types and indices.
     double epsilon;                         ///< Machine epsilon of the precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
-    FunctionRef<void(ContactKey&, ObjectId)> put; ///< Writes emission and material.
+    /// Writes the emission and the material of an object into its key.
+    FunctionRef<void(ContactKey&, ObjectId)> put;
 };
 
 /// Finds the contacts of a scene, without knowing the scene's types.
@@ -291,7 +292,8 @@ public:
     }
     [[nodiscard]] const Box& box(std::uint32_t i) const noexcept { return boxes_[i]; }
 
-    /// Calls f(k) for the boxes k of other looks that overlap box i.
+    /// Calls f(k) for each box k that overlaps box i and contains a surface of a
+    /// different appearance.
     /// \param i       The index of a box.
     /// \param budget  The number of nodes that may still be visited; it is counted
     ///                down.
@@ -333,7 +335,7 @@ private:
     return max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
 }
 
-/// The distance within which two surfaces in a box count as in one place.
+/// The distance within which two surfaces in a box count as coinciding.
 [[nodiscard, gnu::cold]] inline double contact_distance(const BoxT<double>& box,
                                                         double epsilon) noexcept {
     return 8 * epsilon * reach_of(box);

@@ -35,7 +35,7 @@ namespace ljus {
 /// The boundary that a path crosses if it passes through a surface.
 template <std::floating_point T>
 struct CrossingT {
-    SceneHitT<T> hit{};   ///< The surface, chosen from all surfaces in the place.
+    SceneHitT<T> hit{};   ///< The surface, chosen from all that coincide at the hit.
     BodyList before{};    ///< The bodies before the surface.
     BodyList behind{};    ///< The bodies behind it; unchanged if it is opaque or thin.
     bool hidden = false;  ///< Whether the surface is ignored.

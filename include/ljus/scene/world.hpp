@@ -166,7 +166,8 @@ namespace detail {
 template <std::floating_point T>
 struct KeptPicturesT {
     std::vector<PictureLightT<T>> lights{}; ///< The lamps.
-    std::vector<std::uint32_t> shown{};     ///< Each lamp's index in lights, if any.
+    /// For each lamp of the scene, its index in `lights`; no_light without a picture.
+    std::vector<std::uint32_t> shown{};
 };
 
 } // namespace detail
@@ -240,8 +241,8 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may be in an absorbing body: whether it lies in the bounding box
-    /// of all such bodies. With fog or priorities, it is the box of all transparent
+    /// Whether a point may be in an absorbing body. The point is tested against the
+    /// bounding box of all such bodies or, with fog or priorities, of all transparent
     /// bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
@@ -763,7 +764,7 @@ void require_no_fog([[maybe_unused]] const W& world,
 template <typename W>
 using WorldRef = Ref<typename detail::Closed<W>::Type>;
 
-/// The surface that a ray meets at a hit, chosen from all surfaces in the place.
+/// The surface that a ray meets at a hit, chosen from all surfaces that coincide there.
 template <std::floating_point T>
 struct PlaceHitT {
     SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
@@ -785,8 +786,9 @@ template <typename S, typename Compute, std::floating_point T>
     return point;
 }
 
-/// Calls f(object, hit, front) for each surface in the place of a hit, if the place is
-/// in the box of a contact. `front` is whether the ray arrives from outside the object.
+/// Calls f(object, hit, front) for each surface that coincides with the surface at a
+/// hit, if the hit lies in the box of a contact. `front` tells whether the ray arrives
+/// from outside the object.
 /// \param world  The closed scene.
 /// \param ray    The ray.
 /// \param hit    A hit of the ray. f is called with this hit first.
@@ -839,13 +841,13 @@ template <typename S, typename Compute, std::floating_point T, typename F>
 
 } // namespace detail
 
-/// Decides which of several surfaces in one place a ray meets.
+/// Decides which of several coinciding surfaces a ray meets.
 /// \param world  The closed scene.
 /// \param ray    The ray, with a direction of any length.
 /// \param hit    A hit of the ray.
-/// \return The surface that counts. If no other object has a surface in the place, it
-///         is the hit itself, without bodies.
-/// \cost One intersection for each object that may share the place.
+/// \return The surface that counts. If no other surface coincides with the one that was
+///         hit, it is the hit itself, without bodies.
+/// \cost One intersection for each object that may have a coinciding surface.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
 place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>& hit) {

@@ -125,8 +125,10 @@ struct Bvh8Node {
 /// number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    static constexpr int count_shift = 27;          ///< Position of count - 1.
-    static constexpr std::uint32_t first = (1u << count_shift) - 1; ///< Slot bits.
+    /// The lowest of the four bits that hold the number of primitives minus 1.
+    static constexpr int count_shift = 27;
+    /// The bits that hold the first slot of a leaf.
+    static constexpr std::uint32_t first = (1u << count_shift) - 1;
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
         return ((child >> count_shift) & 15u) + 1;

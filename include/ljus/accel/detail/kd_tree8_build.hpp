@@ -48,7 +48,7 @@ struct KdTree8Shape {
     int halvings = 0;         ///< Number of halvings from the root to a leaf.
     int levels = 0;           ///< Number of levels of nodes.
     std::array<std::uint32_t, 12>
-        first{}; ///< The index of each level's first node, then the end.
+        first{}; ///< Index of the first node of each level, then the number of nodes.
 
     /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
@@ -113,12 +113,12 @@ public:
 
     /// The number of items.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Item number i, which has not been drained.
+    /// Item number i, which must not have been drained.
     [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
         return pieces_[i / piece][i % piece];
     }
-    /// Room for at least one item behind the last one. take() adds the items that were
-    /// written there.
+    /// Free memory for at least one item behind the last one. take() adds the items
+    /// that were written into this memory.
     [[nodiscard]] std::span<Item> room() {
         if (size_ == piece * pieces_.size()) {
             if (spare_ != nullptr && !spare_->empty()) {

@@ -35,7 +35,7 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;                ///< Ends below the distance of the nearest so far.
+    ReachT<T> reach;                ///< Points nearer than the nearest point so far.
     std::optional<Neighbor> best{}; ///< The nearest point so far.
 
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
@@ -211,7 +211,7 @@ struct NearestCountedT {
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< Ends below the k-th distance so far.
+    ReachT<T> reach; ///< Points nearer than the k-th nearest point so far.
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest points so far.
 

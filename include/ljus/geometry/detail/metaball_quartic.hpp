@@ -51,15 +51,15 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// The field of a blob along a ray: w s^2 where \f$ s(t) = h - k (t - m)^2 \f$ is
-/// positive, and 0 elsewhere.
+/// The field of a blob of radius R along a ray: w s^2 where
+/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere.
 template <std::floating_point C>
 struct StrandT {
-    C enter = C(0);  ///< Where s becomes positive.
-    C leave = C(0);  ///< Where s becomes negative again.
-    C middle = C(0); ///< m, where the ray is nearest to the centre.
-    C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
-    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
+    C enter = C(0);  ///< The t at which s becomes positive.
+    C leave = C(0);  ///< The t at which s becomes negative again.
+    C middle = C(0); ///< m, the t at which the ray is nearest to the blob's centre.
+    C height = C(0); ///< h = 1 - (p/R)^2; p is the distance from the centre at t = m.
+    C bend = C(0);   ///< k: the squared length of the ray's direction over R^2.
     C weight = C(1); ///< w, the weight of the blob.
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/mesh_builder.hpp
-/// \brief Makes meshes of the faces of a mesh file, every part of which may be wrong.
+/// \brief Makes meshes from the faces of a mesh file. Any part of the file may be
+/// wrong.
 
 #include <algorithm>
 #include <cmath>
