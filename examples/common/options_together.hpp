@@ -215,8 +215,9 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
 
 /// Finds the pixels of --slice or --region, and the layers of --layers, once the size
 /// of the picture is known.
-/// \param r  Its `pixels` and `which` are set; those of a slice may be no row.
-/// \throws std::invalid_argument  for pixels outside the picture, or a wrong layer.
+/// \param r  Receives `pixels` and `which`. A slice may have no rows.
+/// \throws std::invalid_argument  if the region is not within the picture, or a layer
+///         is unknown.
 inline void choose_pixels(RenderRequest& r) {
     const auto [width, height] = std::pair{r.picture.width, r.picture.height};
     r.pixels = {0, 0, width, height};

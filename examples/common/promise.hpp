@@ -64,8 +64,8 @@ struct Promise {
     return promise.seconds > 0 || promise.error > 0;
 }
 
-/// Combines two estimates of a squared bias: the pilot's measurement, and the value of
-/// the book's rooms.
+/// Combines two estimates of a squared bias: the measurement of a pilot, and the value
+/// that was measured in the rooms of the book.
 ///
 /// A short pilot measures mostly its own noise. The value of the book is then the
 /// better guess. Both are weighted by their inverse variances, where the standard error

@@ -59,7 +59,7 @@ struct RenderRequest {
     bool in_double = false;                       ///< Whether to compute in double.
     std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
-    /// Rays for pixels that need more than the others.
+    /// Further rays of pixels that differ from their neighbours.
     ljus::AdaptiveSettings adaptive{.more = 0, .batches = 1, .disagreement = 0.75};
     double exposure = 0; ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
@@ -70,18 +70,18 @@ struct RenderRequest {
     PassOptions passes{};          ///< Passes of progressive photon mapping.
     Promise promise{};             ///< The promised time or error.
     nlohmann::ordered_json kept{}; ///< How the promise was kept.
-    std::string remarks{};         ///< What was remarked, a line each.
-    std::string slice{};           ///< "3/16", or nothing.
-    SliceNumber part{};            ///< The same as a number.
-    std::string region{};          ///< "40,30,64,48", or nothing.
-    ljus::PixelRegion pixels{};    ///< Those of the slice, the region, or all.
-    std::string layers{};          ///< "normal,albedo", or nothing.
-    ljus::LayerSettings which{};   ///< The same as settings.
-    std::string pixel{};           ///< "120,80", or nothing.
-    std::vector<ljus::PhotonKind> photons{}; ///< Kinds to draw as dots, or nothing.
-    bool plan = false;                       ///< Print what would run.
-    bool hooks = false;                      ///< Print what the scene's types provide.
-    bool quiet = false; ///< No progress bar, and no text but remarks.
+    std::string remarks{};         ///< All remarks, one per line.
+    std::string slice{};           ///< Text such as "3/16", or empty.
+    SliceNumber part{};            ///< Number of the slice.
+    std::string region{};          ///< Text such as "40,30,64,48", or empty.
+    ljus::PixelRegion pixels{};    ///< The pixels to render.
+    std::string layers{};          ///< Text such as "normal,albedo", or empty.
+    ljus::LayerSettings which{};   ///< The layers to save.
+    std::string pixel{};           ///< Text such as "120,80", or empty.
+    std::vector<ljus::PhotonKind> photons{}; ///< Kinds of photons to draw as dots.
+    bool plan = false;  ///< Whether to print the passes that would run.
+    bool hooks = false; ///< Whether to print the hooks of the types.
+    bool quiet = false; ///< Whether to print remarks only.
 };
 
 /// Adds every setting to the command line, with its name, the member that holds it, a

@@ -471,11 +471,11 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     return remarks;
 }
 
-/// The warnings about the place of a camera: in a scene without objects, or so near to
-/// a surface that rounding decides on which side of it the camera is.
+/// The warnings about the position of a camera. The scene may have no objects, or the
+/// camera may be so near to a surface that rounding decides on which side the camera is.
 /// \param world     The closed scene.
-/// \param position  Of the camera, or of the middle of its lens.
-/// \return As scene_remarks().
+/// \param position  The position of the camera, or of the middle of its lens.
+/// \return The warnings, as those of scene_remarks().
 /// \cost Six rays.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard, gnu::cold]] std::vector<std::string>
@@ -497,9 +497,9 @@ camera_remarks(const W& world, const Vec3T<T>& position) {
     return {};
 }
 
-/// The warnings about a photon mapper: those of scene_remarks(), then those of its
-/// passes.
-/// \return One per line, each with a line feed.
+/// The warnings about a photon mapper: those of scene_remarks(), then those about its
+/// photon passes.
+/// \return The warnings, one per line, each with a line feed.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;
