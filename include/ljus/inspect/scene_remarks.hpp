@@ -472,8 +472,8 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
 }
 
 /// The warnings about the position of a camera. The scene may have no objects, or the
-/// camera may be so near to a surface that rounding decides on which side of the surface
-/// it is.
+/// camera may be so near to a surface that rounding decides on which side of the
+/// surface it is.
 /// \param world     The closed scene.
 /// \param position  The position of the camera, or of the middle of its lens.
 /// \return The warnings, as those of scene_remarks().
