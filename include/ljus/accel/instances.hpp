@@ -120,9 +120,9 @@ public:
 
     /// The mesh.
     [[nodiscard]] const MeshT<T>& mesh() const noexcept { return mesh_.get(); }
-    /// From the mesh to the scene.
+    /// The map from the mesh to the scene.
     [[nodiscard]] const AffineT<T>& place() const noexcept { return place_; }
-    /// From the scene to the mesh.
+    /// The map from the scene to the mesh.
     [[nodiscard]] const AffineT<Wide>& inverse_place() const noexcept {
         return inverse_;
     }

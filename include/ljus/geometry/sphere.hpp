@@ -29,8 +29,8 @@ namespace ljus {
 // [sphere]
 template <std::floating_point T>
 struct SphereT {
-    Vec3T<T> center{T(0)}; ///< C, in scene units.
-    T radius = T(1);       ///< R, above 0, in scene units.
+    Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
+    T radius = T(1);       ///< The radius R, above 0, in scene units.
 };
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]

@@ -94,9 +94,9 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u and v, which are the
-/// weights of the second and the third vertex. The error bound of the position lies
-/// within the plane. `normal` must be the result of normal(triangle).
+/// The point of a triangle with the barycentric coordinates u and v, with its error
+/// bound. u and v are the weights of the second and the third vertex. `normal` must be
+/// the result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {

@@ -18,9 +18,10 @@ namespace detail {
 
 /// The range of exposures of HDR-FLIP.
 struct Exposures {
-    double first = 0; ///< In stops; at this one the brightest pixel is nearly white.
-    double last = 0;  ///< In stops; at this one half of the pixels are nearly white.
-    int count = 2;    ///< Number of exposures, about one per stop, at least 2.
+    /// First exposure, in stops: the brightest pixel is nearly white.
+    double first = 0;
+    double last = 0; ///< Last exposure, in stops: half of the pixels are nearly white.
+    int count = 2;   ///< Number of exposures, about one per stop, at least 2.
 };
 
 /// The response of a film to light x, by Narkowicz's fit of the ACES curve, without the

@@ -24,7 +24,7 @@ struct PhotonCount {
 
 /// The photons of a map, by kind.
 struct PhotonCensus {
-    std::array<PhotonCount, 5> kinds; ///< Indexed by PhotonKind.
+    std::array<PhotonCount, 5> kinds; ///< The counts, indexed by PhotonKind.
 
     /// The photons of one kind.
     [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {

@@ -96,11 +96,11 @@ template <std::floating_point T, std::floating_point U>
         detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
 }
 
-/// The relative mean square error of a picture without its worst pixels. The fraction
-/// `dropped` of the pixels is left out, in [0, 1): those whose error, as a mean over
-/// the channels, is largest. Without the worst 1 % the metric measures the picture but
-/// for its fireflies. *Trap*: the metric favours a method that puts much light into few
-/// pixels. State it beside rel_mse(), never in its place.
+/// The relative mean square error of a picture without its worst pixels. These are the
+/// pixels whose error, as a mean over the channels, is largest. Their fraction is
+/// `dropped`, in [0, 1). Without the worst 1 %, fireflies hardly influence the metric.
+/// *Trap*: the metric favours a method that puts much light into few pixels. State it
+/// beside rel_mse(), never in its place.
 /// \return Dimensionless, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Reads files up to a limit of size.
+/// \brief Reads files, and refuses those that are too large.
 
 #include <algorithm>
 #include <cerrno>

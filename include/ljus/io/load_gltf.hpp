@@ -14,9 +14,9 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
-/// Reads the meshes, cameras and lights of a glTF 2.0 file, .gltf or .glb. Optional
-/// (nlohmann-json). The nodes of the file's scene place the meshes. All faces of one
-/// material form one mesh.
+/// Reads the meshes, cameras and lights of a glTF 2.0 file, .gltf or .glb, by means of
+/// the package nlohmann-json. The nodes of the file's scene place the meshes. All faces
+/// of one material form one mesh.
 ///
 /// A material with a metallicFactor of 0.5 or more is a metal, with the colour and
 /// roughness of the file; a roughness below 0.01 becomes 0. A metallicRoughnessTexture

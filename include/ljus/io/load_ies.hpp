@@ -98,9 +98,9 @@ struct IesReader {
 
 /// The intensities of a file: for each horizontal angle, those of all vertical angles.
 struct IesGrid {
-    std::vector<double> horizontal{}; ///< Horizontal angles, degrees.
-    std::vector<double> vertical{};   ///< Vertical angles, degrees.
-    std::vector<double> candela{};    ///< Intensities, cd.
+    std::vector<double> horizontal{}; ///< Horizontal angles in degrees.
+    std::vector<double> vertical{};   ///< Vertical angles in degrees.
+    std::vector<double> candela{};    ///< Intensities in cd.
 
     /// Appends a column of another grid, which has the same vertical angles.
     /// \param angle  The horizontal angle that the column gets here.

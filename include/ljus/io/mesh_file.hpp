@@ -61,16 +61,18 @@ struct MeshMaterial {
     glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
     double roughness = 0;    ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
     double index = 1.5;      ///< Index of refraction Ni, within [0.001, 1000].
-    double dissolve = 1;     ///< Opacity d, or 1 - Tr; 0 is clear. Beside a picture,
-                             ///< Tr 1 is taken for opaque.
+    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
+    /// for opaque.
+    double dissolve = 1;
     /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. They are not
     /// glass if Ni is 1, since some programs write them for every material.
     int illumination = 2;
     MeshImage picture{}; ///< A picture of colours, which are multiplied by `diffuse`.
     MeshImage mask{};    ///< A picture of alpha, which cuts holes; see Holes.
     MeshImage normals{}; ///< A picture of normals; see NormalMapT.
-    bool mask_is_alpha = true; ///< Whether `mask` is the alpha of its picture; false:
-                               ///< red if that picture has no alpha.
+    /// If true, `mask` is the alpha of its picture. If false, the red channel of a
+    /// picture without alpha takes its place.
+    bool mask_is_alpha = true;
     double cutoff = 0.5;    ///< There is a hole where alpha is below this; at least 0.
     UvMapT<double> map{};   ///< How all pictures of the material lie on it.
     PictureWrap wrap{};     ///< What the pictures show beyond their borders.

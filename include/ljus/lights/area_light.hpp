@@ -16,9 +16,9 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};          ///< Emitted radiance, W/(m^2 sr).
+    RgbT<T> radiance{T(0)};          ///< Emitted radiance in W/(m^2 sr).
     Vec3T<T> normal{T(0)};           ///< Unit normal of a flat shape, otherwise 0.
-    T area = T(0);                   ///< In squared scene units.
+    T area = T(0);                   ///< The area, in squared scene units.
     bool inside_out = false;         ///< True: it emits against the normal.
     std::vector<double> area_sums{}; ///< area_sums() of a shape that has this function.
 };

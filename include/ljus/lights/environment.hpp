@@ -163,7 +163,7 @@ namespace detail {
 template <std::floating_point T>
 struct SkyDirectionT {
     Vec3T<T> wi{T(0)};      ///< Unit direction towards the sky.
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
     T pdf = T(0);           ///< Density of `wi`, per steradian.
 };
 

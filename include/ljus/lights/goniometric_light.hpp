@@ -62,7 +62,7 @@ template <std::floating_point T>
 struct GoniometricLightT {
     using Scalar = T;             ///< The precision of its numbers.
     IntensityTable table{};       ///< The intensities.
-    Vec3T<T> position{T(0)};      ///< In scene units.
+    Vec3T<T> position{T(0)};      ///< The position, in scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis along which it shines; any length but 0.
     /// Determines how the lamp is turned about its direction: a vector towards
     /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
@@ -77,16 +77,17 @@ using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in flo
 /// A goniometric light as its scene stores it.
 template <std::floating_point T>
 struct GoniometricInSceneT {
-    using Scalar = T;              ///< The precision of its numbers.
-    Vec3T<T> position{T(0)};       ///< In scene units.
-    FrameT<T> frame{};             ///< The normal is the pole, the tangent azimuth 0.
+    using Scalar = T;        ///< The precision of its numbers.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
+    /// The frame of the angles: the normal is the pole, the tangent is azimuth 0.
+    FrameT<T> frame{};
     std::vector<double> polar{};   ///< Polar angles in radians.
     std::vector<double> azimuth{}; ///< Azimuths in radians.
     std::vector<double> candela{}; ///< Intensities, as in an IntensityTable.
     /// The flux between neighbouring angles, in lm. A row is an interval of polar
     /// angles.
     PiecewiseConstant2D cells{};
-    RgbT<T> watts_per_lumen{T(0)}; ///< As in a GoniometricLightT.
+    RgbT<T> watts_per_lumen{T(0)}; ///< Watts per lumen, as in a GoniometricLightT.
     detail::ConeT<T> cone{};       ///< A cone around all directions of emission.
 };
 
@@ -142,7 +143,7 @@ namespace detail {
 /// A position between two neighbouring angles of a table.
 struct BetweenAngles {
     std::size_t index = 0; ///< The index of the smaller angle.
-    double part = 0;       ///< From 0 at the smaller angle to 1 at the larger one.
+    double part = 0;       ///< The position: 0 at the smaller angle, 1 at the larger.
 };
 
 /// The position of an angle among angles in increasing order.
@@ -156,10 +157,11 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
-/// The intensities at the four corners of a cell of the table, in cd.
+/// The intensities at the four corners of a cell of the table, in cd. Each array holds
+/// those at the smaller and at the larger azimuth.
 struct CellCorners {
-    double low[2] = {};  ///< At the smaller polar angle, for both azimuths.
-    double high[2] = {}; ///< At the larger polar angle, for both azimuths.
+    double low[2] = {};  ///< Intensities at the smaller polar angle.
+    double high[2] = {}; ///< Intensities at the larger polar angle.
 };
 
 /// The intensities at the corners of a cell.

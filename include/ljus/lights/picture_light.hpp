@@ -29,10 +29,10 @@ struct PictureLightT {
     QuadT<T> frame{};            ///< The quad, or the square around the disc.
     Vec3T<T> normal{T(0)};       ///< Unit normal on the side that shines.
     bool round = false;          ///< True for a disc: only the circle shines.
-    ImageT<T> picture{};         ///< Radiance, W/(m^2 sr).
+    ImageT<T> picture{};         ///< The radiance in W/(m^2 sr).
     PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside a disc.
-    double pixel_area = 0;       ///< In squared scene units.
-    RgbT<T> flux{T(0)};          ///< W.
+    double pixel_area = 0;       ///< The area of a pixel, in squared scene units.
+    RgbT<T> flux{T(0)};          ///< The flux in W.
 };
 
 namespace detail {
@@ -157,9 +157,9 @@ namespace detail {
 /// A point of a textured lamp, and its radiance.
 template <std::floating_point T>
 struct PicturePointT {
-    SurfacePointT<T> point{}; ///< Its normal points to the side that shines.
+    SurfacePointT<T> point{}; ///< The point; the normal is on the side that shines.
     Vec2T<T> uv{T(0)};        ///< Coordinates in the picture.
-    const RgbT<T>& radiance;  ///< W/(m^2 sr).
+    const RgbT<T>& radiance;  ///< The radiance in W/(m^2 sr).
 };
 
 /// Samples a point of the frame with the density pdf_of_point().
@@ -193,8 +193,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Samples a point of the lamp for a shadow ray.
-/// \return The sample. Nothing if `from` lies behind the lamp. For a disc, a point in a
-///         pixel on the edge may lie outside the disc; then also nothing.
+/// \return The sample. Nothing if `from` lies behind the lamp, or if the sampled point
+///         lies outside the disc, which happens in pixels on the disc's edge.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,

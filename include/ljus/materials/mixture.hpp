@@ -83,7 +83,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct LobeFractionsT {
     T diffuse; ///< The matt lobe, in its brightest channel.
-    T refract; ///< Refraction.
+    T refract; ///< The refracted light.
     T reflect; ///< The mirror and the reflection of the boundary.
     [[nodiscard]] constexpr T sum() const noexcept {
         return diffuse + refract + reflect;

@@ -20,7 +20,7 @@ template <Material Base>
 requires Transparent<Base>
 struct Nested {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
     Base base{};                                   ///< The material.
     /// Where bodies overlap, the body with the highest priority fills the space. A
     /// material that is not Nested has priority 0.

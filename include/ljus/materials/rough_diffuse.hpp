@@ -26,9 +26,9 @@ enum class RoughModel : std::uint8_t {
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct RoughDiffuseT {
-    using Scalar = T;                   ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)};             ///< Albedo of a facet, in [0, 1].
-    T sigma = T(0.3);                   ///< Radians; for `fon` a number in [0, 1].
+    using Scalar = T;       ///< The precision of its numbers.
+    RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
+    T sigma = T(0.3);       ///< The roughness in radians; for `fon` a number in [0, 1].
     RoughModel model = RoughModel::fon; ///< The formula.
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.

@@ -22,11 +22,11 @@ namespace ljus {
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< A MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
     /// True if the texture or the base uses uv.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
-    Base base{};       ///< White, if the texture's colour is to be kept.
-    Texture texture{}; ///< Colours within [0, 1].
+    Base base{};       ///< The material; a white one keeps the texture's colours.
+    Texture texture{}; ///< The texture, with colours within [0, 1].
 };
 
 namespace detail {

@@ -37,7 +37,7 @@ template <typename Region>
 struct Fog {
     /// The precision of its numbers.
     using Scalar = decltype(detail::precision_of(std::declval<const Region&>()));
-    Region region{};                    ///< The space that it fills, in scene units.
+    Region region{}; ///< The space that the fog fills, in scene units.
     RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
     RgbT<Scalar> scattering{Scalar(0)}; ///< Coefficient sigma_s, per scene unit.
     Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().

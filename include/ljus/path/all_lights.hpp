@@ -24,10 +24,10 @@ enum class DirectLight : std::uint8_t {
     sampled, ///< Shadow rays alone.
     /// On a Lambertian surface, the closed form of a lamp's unoccluded light, times the
     /// fraction of it that shadow rays find visible. A light without a closed form is
-    /// sampled by shadow rays alone. On other surfaces the same as `mis`.
+    /// sampled by shadow rays alone. On other surfaces the method is the same as `mis`.
     analytic,
     /// Shadow rays, and a ray sampled by the material, with the weights of multiple
-    /// importance sampling. Best for lamps as large as walls.
+    /// importance sampling. This method is the best for lamps as large as walls.
     mis
 };
 
@@ -36,8 +36,9 @@ namespace detail {
 /// A lamp whose form factor at a vertex is known.
 template <std::floating_point T>
 struct SeenLampT {
-    T form_factor = T(0);   ///< For a surface that faces the side of `wo`.
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    /// The form factor from a surface that faces the side of `wo`.
+    T form_factor = T(0);
+    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
 };
 
 /// The form factor and the radiance of a light at a vertex.

@@ -29,8 +29,9 @@ namespace ljus {
 /// A scattered direction.
 template <std::floating_point T>
 struct ScatteredT {
-    BsdfSampleT<T> sample{}; ///< In the shading frame; z of its `wi` gives the side.
-    Vec3T<T> wi{T(0)};       ///< The direction in the world.
+    /// The sample in the shading frame; the sign of `wi.z` gives the side.
+    BsdfSampleT<T> sample{};
+    Vec3T<T> wi{T(0)}; ///< The direction in the world.
 };
 
 /// Samples a direction and respects both normals of the surface. The flux of a photon

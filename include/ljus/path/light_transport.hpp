@@ -76,7 +76,7 @@ struct ExpressionLog {
 /// A log that sums the terms of several classes of paths separately.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{};  ///< One for each class.
+    std::vector<ExpressionLog<T>> logs{};  ///< One log for each class.
     std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
     std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
 

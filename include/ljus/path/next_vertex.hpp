@@ -29,10 +29,11 @@ namespace ljus {
 /// A vertex of a path, for all renderers and the photon pass.
 template <std::floating_point T>
 struct VertexT {
-    SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
-    FrameT<T> frame{};             ///< Shading frame, in which materials work.
-    Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit, to the previous vertex, in the frame.
-    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
+    SurfacePointT<T> point{}; ///< Position, rounding error, geometric normal.
+    FrameT<T> frame{};        ///< Shading frame, in which materials work.
+    /// Unit direction to the previous vertex, in the frame.
+    Vec3T<T> wo{T(0), T(0), T(1)};
+    Vec2T<T> uv{T(0)};         ///< Texture coordinates, set if the material uses them.
     ObjectId id{};             ///< Number of the object.
     ObjectT<T> object{};       ///< Material and emission of the object.
     T outside = T(1);          ///< Index of refraction on the outside; 1 in air.
@@ -489,8 +490,8 @@ namespace detail {
 /// The surfaces that a path passes between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)};     ///< Transmittance over the probability of passing.
-    T distance = T(0);         ///< From the first vertex to the last passed surface.
+    RgbT<T> through{T(1)}; ///< Transmittance over the probability of passing.
+    T distance = T(0); ///< Distance from the first vertex to the last passed surface.
     T stop_probability = T(1); ///< Probability of stopping at a thin surface; else 1.
     std::uint8_t outside = 0;  ///< Rank of the body outside; see BodyList. 0: air.
 };

@@ -19,12 +19,13 @@ namespace ljus {
 
 /// Settings of the light paths, and of their joints with paths from the eye.
 struct LightPathSettings {
-    long long paths = 100000;    ///< Number of light paths, at least 1.
-    float radius = 0.02f;        ///< Radius of merging, in scene units; 0: no merging.
-    int max_depth = 100;         ///< Surfaces between a light and the eye, at least 1.
+    long long paths = 100000; ///< Number of light paths, at least 1.
+    float radius = 0.02f;     ///< Radius of merging, in scene units; 0: no merging.
+    /// Largest number of surfaces between a light and the eye, at least 1.
+    int max_depth = 100;
     std::uint64_t seed = 1;      ///< Seed of the random streams.
     std::uint64_t iteration = 0; ///< Index of the repetition.
-    int threads = 0;             ///< As in ParallelSettings.
+    int threads = 0;             ///< Number of threads, as in ParallelSettings.
 
     /// The term \f$\eta\f$ of SubpathWeights: the number of paths times the area of a
     /// disc with the merging radius.

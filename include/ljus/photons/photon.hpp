@@ -79,7 +79,7 @@ template <std::floating_point T>
 /// \erratum{The report says that a photon has a radiance. A photon carries flux, in W.}
 template <std::floating_point T>
 struct PhotonT {
-    Vec3T<T> position{T(0)};  ///< In scene units.
+    Vec3T<T> position{T(0)};  ///< The position, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
     /// The flux that arrives, in W. For a shadow photon it is the flux that is
     /// occluded; in fog, the flux that is scattered.

@@ -141,7 +141,7 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 template <std::floating_point T>
 struct SceneAimT {
     LightChoice choice{}; ///< The distribution of the lights.
-    SphereT<T> sphere{};  ///< From lit_sphere().
+    SphereT<T> sphere{};  ///< The result of lit_sphere().
     /// 1 for each light that is aimed, 0 for the others; empty if no light is aimed.
     std::vector<std::uint8_t> is_aimed{};
 

@@ -48,9 +48,10 @@ struct FormFactorSettings {
     /// convex scene, see Patches::convex.
     int shadow_rays = 16;
     bool closed = false; ///< For a room without openings: make each row sum exactly 1.
-    std::uint64_t seed = 1;          ///< Seed of the random streams.
-    int threads = 0;                 ///< As in ParallelSettings.
-    Progress progress = no_progress; ///< Called with (done, total); false stops.
+    std::uint64_t seed = 1; ///< Seed of the random streams.
+    int threads = 0;        ///< Number of threads, as in ParallelSettings.
+    /// Called with (done, total); returns false to stop.
+    Progress progress = no_progress;
 };
 
 namespace detail {

@@ -34,7 +34,8 @@ struct SolveSettings {
     /// The solver stops when the unshot flux is this fraction of the emitted flux.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
-    int threads = 0;        ///< For RadiositySolver::jacobi; as in ParallelSettings.
+    /// Number of threads of RadiositySolver::jacobi, as in ParallelSettings.
+    int threads = 0;
 };
 
 /// The radiosity of all patches.

@@ -132,7 +132,7 @@ adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
 struct RowSums {
     int width = 0;                   ///< Width of the picture.
     int top = 0;                     ///< The first row.
-    std::vector<PixelSums> pixels{}; ///< Row by row.
+    std::vector<PixelSums> pixels{}; ///< The sums of the pixels, row by row.
 
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return pixel_index(width, x, y - top);
@@ -200,7 +200,7 @@ inline void set_statistics(AdaptiveBlock& block, const RowSums& sums,
 
 /// The statistics of a block that ray_shares() needs.
 struct RayShare {
-    double pixels = 1;   ///< Its number of pixels.
+    double pixels = 1;   ///< Number of pixels in the block.
     double variance = 0; ///< Relative variance of one ray, mean over its pixels.
     double rays = 1;     ///< Rays per pixel so far.
 };

@@ -26,9 +26,8 @@ struct DistributedSettings {
                        ///< least 0.
 };
 
-/// A tracer of distributed rays of a world, which must outlive it.
-/// RenderSettings::sampling stratifies the rays of a pixel over its area and over all
-/// other dimensions.
+/// A tracer of distributed rays. RenderSettings::sampling stratifies the rays of a
+/// pixel over the area of the pixel and over all other dimensions.
 template <typename W>
 class DistributedTracer {
 public:

@@ -59,15 +59,17 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 /// The data that gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
-    const IrradiancePointsT<T>* points;     ///< The points with known irradiance.
-    const PhotonMapT<T>* general = nullptr; ///< Estimates the irradiance where no
-                                            ///< point is near; may be null.
-    IrradiancePointSettings irradiance{};   ///< How the points were made.
+    const IrradiancePointsT<T>* points; ///< The points with known irradiance.
+    /// The general map, from which irradiance is estimated where no point is near; may
+    /// be null.
+    const PhotonMapT<T>* general = nullptr;
+    IrradiancePointSettings irradiance{}; ///< How the points were made.
     /// The caustics map, for such estimates and for glossy surfaces; may be null.
     const PhotonMapT<T>* caustics = nullptr;
     DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
-    bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the caustics
-                                   ///< map.
+    /// Whether nearly specular objects counted as mirrors when the caustics map was
+    /// made, see PhotonPassSettings::gloss_as_mirrors.
+    bool gloss_as_mirrors = false;
     bool paths = false; ///< Whether gather rays continue at diffuse surfaces as at
                         ///< glossy ones, because the general map has too few photons.
 
@@ -78,7 +80,7 @@ struct GatherLookupT {
 /// The result of a gather ray.
 template <std::floating_point T>
 struct GatherRayT {
-    RgbT<T> radiance{T(0)};                          ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)};                          ///< The radiance in W/(m^2 sr).
     T distance = std::numeric_limits<T>::infinity(); ///< Distance to the first surface,
                                                      ///< in scene units.
 };

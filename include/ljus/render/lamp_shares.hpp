@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/lamp_shares.hpp
-/// \brief The number of photons of each lamp, by how much of its light a picture shows.
+/// \brief Sends more photons from those lamps whose light a picture shows.
 
 #include <cmath>
 #include <vector>

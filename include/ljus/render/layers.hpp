@@ -67,7 +67,7 @@ struct LayerSettings {
 template <std::floating_point T>
 struct RenderedLayersT {
     RenderedT<T> rendered{};         ///< The result of render(), byte for byte.
-    std::vector<LayerT<T>> layers{}; ///< In the order of LayerSettings.
+    std::vector<LayerT<T>> layers{}; ///< The layers, in the order of LayerSettings.
 };
 
 /// The layers of a picture with their names and channels, before it is rendered: all

@@ -52,9 +52,10 @@ namespace ljus {
 /// Each has its own header and is listed by abilities<...>. An ability that is not
 /// listed costs nothing.
 /// \{
-struct Gathering; ///< For IndirectLight::gather, cache: ljus/render/gathering.hpp.
-struct Skipping;  ///< For SkipSettings: ljus/render/skipping.hpp.
-struct Budgeting; ///< For CausticBudget: ljus/render/budgeting.hpp.
+/// Needed by IndirectLight::gather and cache; see ljus/render/gathering.hpp.
+struct Gathering;
+struct Skipping;  ///< Needed by SkipSettings; see ljus/render/skipping.hpp.
+struct Budgeting; ///< Needed by CausticBudget; see ljus/render/budgeting.hpp.
 /// \}
 
 /// The template arguments of a renderer: its abilities, and its random stream.
@@ -104,7 +105,7 @@ requires(!Included<X> || StreamLike<X>) struct StateOf<X, T> {
     using Type = Abilities<X>; ///< No state.
 };
 
-/// The stream among some abilities; without one a RandomStream.
+/// Finds the stream in a list of abilities; a RandomStream if the list has none.
 template <typename... X>
 struct StreamAmong {
     using Type = RandomStream; ///< The default.
@@ -544,9 +545,9 @@ template <typename Mapper, std::floating_point T, Material M>
 
 /// Adds the light that a diffuse surface reflects along a camera path, except light
 /// that the path's next ray finds. Direct light comes by shadow rays, and caustics come
-/// from the caustics map. Where an indirect ray ends, the general map takes the place
-/// of the shadow rays; irradiance points take the place of the shadow rays and of the
-/// caustics map.
+/// from the caustics map. Where an indirect ray ends, the settings replace some of
+/// these: with IndirectLight::map, the general map replaces the shadow rays; otherwise
+/// irradiance points replace the shadow rays and the caustics map.
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.

@@ -10,7 +10,7 @@ namespace ljus {
 /// \addtogroup path_tracing
 /// \{
 
-/// A plain path tracer of a world, which must outlive it.
+/// A plain path tracer of a world. The world must outlive the tracer.
 template <typename W>
 class PlainPathTracer {
 public:

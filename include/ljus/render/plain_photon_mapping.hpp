@@ -13,7 +13,8 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// A plain photon mapper: a caustics map and its world, which must outlive the mapper.
+/// A plain photon mapper: a caustics map and its world. The world must outlive the
+/// mapper.
 template <typename W>
 class PlainPhotonMapper {
 public:

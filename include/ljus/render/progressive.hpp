@@ -102,7 +102,8 @@ template <std::floating_point T>
 /// passes. It is plain data; alpha and the side of blocks may be set before the first
 /// pass.
 struct ProgressiveState {
-    double alpha = 2.0 / 3; ///< In (0, 1]; see progressive_mean().
+    /// Determines how fast the radius shrinks, in (0, 1]; see progressive_mean().
+    double alpha = 2.0 / 3;
     /// Side of a block in pixels. The mean of a block gets an error of its own, because
     /// the errors of neighbouring pixels are correlated.
     int block_side = 8;

@@ -32,7 +32,8 @@ struct RenderSettings {
     Progress progress = no_progress; ///< Called with (done, total); returns false to
                                      ///< stop.
     Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.
-    Filter filter = Filter::box;                  ///< Weight of each position.
+    /// Weight of a ray by its position relative to the pixel.
+    Filter filter = Filter::box;
 };
 
 namespace detail {

@@ -28,7 +28,7 @@ namespace ljus {
 /// \{
 
 /// A renderer that traces light paths in its constructor and joins them to camera
-/// paths. The world must outlive it:
+/// paths. The world must outlive the renderer:
 ///
 ///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
 ///

@@ -28,7 +28,7 @@ struct WhittedSettings {
     Rgb ambient{0};
 };
 
-/// Whitted's ray tracer of a world, which must outlive it.
+/// Whitted's ray tracer of a world. The world must outlive the tracer.
 template <typename W>
 class WhittedTracer {
 public:

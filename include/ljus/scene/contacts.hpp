@@ -90,8 +90,9 @@ struct Contact {
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
     ContactKind kind = ContactKind::opaque; ///< The kind of its surface.
-    ContactKey key{};                       ///< The smallest key is met.
-    std::uint32_t contact = no_contact;     ///< The object's first contact.
+    /// The key; of several surfaces, a path meets that with the smallest key.
+    ContactKey key{};
+    std::uint32_t contact = no_contact; ///< The object's first contact.
 };
 
 /// All contacts of a scene.
@@ -238,15 +239,16 @@ template <Material M>
 struct ContactObject {
     ObjectId id{};
     ContactKind kind = ContactKind::opaque;
-    std::uint32_t material = 0; ///< The number of its material.
-    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if it is not compared.
-    double area = 0;            ///< Its area; 0 if it is unknown.
+    std::uint32_t material = 0; ///< The number of the object's material.
+    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if the object is not compared.
+    double area = 0;            ///< The area of the object; 0 if unknown.
     BoxT<double> box{};
 };
 
 struct ContactSearch {
-    std::span<const ContactObject> objects; ///< In the order of types and indices.
-    double epsilon;                         ///< Machine epsilon of the precision.
+    /// The objects, in the order of types and indices.
+    std::span<const ContactObject> objects;
+    double epsilon; ///< Machine epsilon of the precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
     FunctionRef<void(ContactKey&, ObjectId)> put; ///< Writes emission and material.
 };

@@ -71,13 +71,13 @@ template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
     using Shape = TypeList<S>;    ///< The type of the shape.
     using Material = TypeList<M>; ///< The type of the material.
-    using Light = TypeList<>;     ///< None.
+    using Light = TypeList<>;     ///< No type.
 };
 
 template <LightSource L>
 struct PartOf<L> {
-    using Shape = TypeList<>;    ///< None.
-    using Material = TypeList<>; ///< None.
+    using Shape = TypeList<>;    ///< No type.
+    using Material = TypeList<>; ///< No type.
     using Light = TypeList<L>;   ///< The type of the light.
 };
 

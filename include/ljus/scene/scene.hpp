@@ -65,10 +65,11 @@ inline constexpr std::uint32_t no_light = 0xffffffffu;
 /// The properties of an object, except its shape.
 template <std::floating_point T>
 struct ObjectT {
-    MaterialId material{};          ///< Its material.
-    RgbT<T> emission{T(0)};         ///< Radiance on the side of the normal, W/(m^2 sr).
-    bool inside_out = false;        ///< Whether the normal points inwards.
-    std::uint32_t light = no_light; ///< Its number among the lights of a World.
+    MaterialId material{};   ///< The material.
+    RgbT<T> emission{T(0)};  ///< Radiance on the side of the normal, W/(m^2 sr).
+    bool inside_out = false; ///< Whether the normal points inwards.
+    /// The object's number among the lights of a World.
+    std::uint32_t light = no_light;
 };
 
 /// An object or a light, as an element of Scene::order.
@@ -231,13 +232,13 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     static constexpr bool lists_fog = sizeof...(P) > 0;
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
-        shapes; ///< An array per type.
+        shapes; ///< The shapes, an array per type.
     /// The properties of each shape, in the order of `shapes`. The emission is the
     /// argument of add(), without that of the material.
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
-    std::tuple<std::vector<M>...> materials; ///< An array per type.
-    std::tuple<std::vector<L>...> lights;    ///< An array per type.
-    std::tuple<std::vector<P>...> media;     ///< An array per type.
+    std::tuple<std::vector<M>...> materials; ///< The materials, an array per type.
+    std::tuple<std::vector<L>...> lights;    ///< The lights, an array per type.
+    std::tuple<std::vector<P>...> media;     ///< The media, an array per type.
     std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
     /// The meshes of instances. A scene with instances can be moved, not copied.
     detail::Prototypes<Prototype> prototypes;

@@ -359,12 +359,12 @@ public:
         });
     }
 
-    /// As Scene::any_shape().
+    /// See Scene::any_shape().
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return S::any_shape(f);
     }
-    /// As Scene::any_material().
+    /// See Scene::any_material().
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
@@ -380,7 +380,7 @@ public:
     }
     /// Whether a material of the scene has holes.
     [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
-    /// As Scene::any_light().
+    /// See Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
         return S::any_light(f);
@@ -718,7 +718,7 @@ template <AnyWorld W, typename F>
     }
 }
 
-/// As hit_of(), for an object of a scene. A point in a hole is not a hit.
+/// Does the same as hit_of(), for an object of a scene. A point in a hole is not a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
                                                  const RayT<T>& ray, const G& shape) {
@@ -730,7 +730,7 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
     });
 }
 
-/// As is_met(), for an object of a scene.
+/// Does the same as is_met(), for an object of a scene.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
                                 const G& shape) {

@@ -48,7 +48,7 @@ struct KdTree8Shape {
     int halvings = 0;         ///< Number of halvings from the root to a leaf.
     int levels = 0;           ///< Number of levels of nodes.
     std::array<std::uint32_t, 12>
-        first{}; ///< The index of each level's first node, then the end.
+        first{}; ///< The index of each level's first node, then the number of nodes.
 
     /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {

@@ -130,7 +130,7 @@ private:
     std::vector<std::uint64_t> keys_;
 };
 
-/// Bricks with the bits of their cells.
+/// The bricks of a grid, with bits for the verdicts of their cells.
 template <std::floating_point T>
 struct VerdictBitsT {
     CellsT<T> cells{};      ///< Geometry of the cells.
