@@ -142,8 +142,8 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses an isosurface if the centre of `bounds` is not finite, or if the radius of
-/// `bounds` or the Lipschitz bound is not finite and above 0.
+/// Refuses an isosurface unless the centre of `bounds` is finite, and the radius of
+/// `bounds` and the Lipschitz bound are finite and above 0.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {

@@ -58,7 +58,7 @@ struct MeshMaterial {
     glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
                              ///< above 0. In glTF the base colour.
     glm::dvec3 specular{0};  ///< Ks, in [0, 1]; in glTF the base colour of a metal.
-    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
+    glm::dvec3 emission{0};  ///< Ke, in W/(m^2 sr), at least 0.
     double roughness = 0;    ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
     double index = 1.5;      ///< Index of refraction Ni, within [0.001, 1000].
     /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
@@ -252,7 +252,7 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
 /// \param scene     A scene that lists Mesh.
 /// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
 /// \param material  The number that Scene::add() returned for the material.
-/// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
+/// \param radiance  Radiance that each mesh emits, in W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
                 const RgbT<T>& radiance = RgbT<T>{0}) {

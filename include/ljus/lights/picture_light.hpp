@@ -119,7 +119,7 @@ make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radi
     }
 }
 
-/// The radiance at a point of the picture, W/(m^2 sr), without interpolation between
+/// The radiance at a point of the picture, in W/(m^2 sr), without interpolation between
 /// pixels.
 /// \param light  The lamp.
 /// \param uv     Point in [0, 1]^2; (0, 0) is the lower left corner of the picture.

@@ -71,7 +71,7 @@ absorption(const Nested<Base>& nested) noexcept {
     return absorption(nested.base);
 }
 
-/// The emitted radiance of the base, W/(m^2 sr).
+/// The emitted radiance of the base, in W/(m^2 sr).
 template <typename Base>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 emission(const Nested<Base>& nested) noexcept {

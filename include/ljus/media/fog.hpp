@@ -96,8 +96,8 @@ template <std::floating_point T>
 }
 
 /// Checks a spherical region.
-/// \throws std::invalid_argument  if the centre is not finite, or the radius is not
-///         finite and above 0.
+/// \throws std::invalid_argument  unless the centre is finite, and the radius is finite
+///         and above 0.
 template <std::floating_point T>
 void check_region(const SphereT<T>& sphere) {
     require_finite("fog.region.center", sphere.center);

@@ -58,7 +58,7 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The radiance that a Lambertian surface reflects from a lamp if nothing occludes the
-/// lamp, W/(m^2 sr).
+/// lamp, in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
                                  const LambertianT<T>& material) noexcept {
@@ -80,7 +80,7 @@ template <std::floating_point T>
 /// \param place   place(i, cells) returns a point of the unit square, in the i-th
 ///                cell.
 /// \param counts  Counts the rays.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
@@ -135,7 +135,7 @@ template <AnyWorld W, std::floating_point T>
 /// for this ray. The ray carries no other light.
 /// \param rays     Number of shadow rays per light.
 /// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -371,7 +371,7 @@ struct DirectLightSettings {
 ///                  Rays are counted. For a light with Verdict::shadow, n skipped rays
 ///                  are counted.
 /// \param verdicts  Called with a light's index; returns its known visibility.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T, Material M, typename Context,
           typename Verdicts = detail::NoVerdicts>

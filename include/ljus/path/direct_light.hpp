@@ -207,7 +207,7 @@ template <AnyWorld W, std::floating_point T, Material M>
 /// \param mis       How the light is divided between this ray and a scattered ray.
 /// \param counts    Counts the ray. No ray is cast if the surface cannot reflect it.
 /// \param verdict   The known visibility. With Verdict::lit no ray is cast.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number. A
 /// second lamp therefore dims the first.}

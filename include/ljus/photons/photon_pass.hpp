@@ -47,7 +47,7 @@ struct PhotonPassSettings {
     std::uint64_t iteration = 0;    ///< Index of the repetition.
     int max_bounces = 1000;         ///< Largest number of surfaces per photon.
     bool shadow_photons = true;     ///< Whether the general map stores shadow photons.
-    PhotonKinds keep = light_kinds; ///< The other kinds of photons to store.
+    PhotonKinds keep = light_kinds; ///< The kinds to store besides shadow photons.
     /// Whether every light emits the same number of photons, instead of a number in
     /// proportion to its power. This is useful for shadow photons.
     bool equal_lights = false;

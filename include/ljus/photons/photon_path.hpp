@@ -52,7 +52,7 @@ template <typename L, typename Point>
 template <std::floating_point T>
 struct LeavingPhotonT {
     RayT<T> ray{};      ///< The ray, without its time.
-    RgbT<T> flux{T(0)}; ///< Flux times the number of photons of the light, W.
+    RgbT<T> flux{T(0)}; ///< Flux times the number of photons of the light, in W.
 };
 
 /// Emits a photon of a light, with the density of the light's own emission. A near

@@ -47,7 +47,7 @@ template <std::floating_point T>
 struct VolumePhotonT {
     Vec3T<T> position{T(0)};  ///< Point where fog scatters the photon, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
-    RgbT<T> flux{T(0)};       ///< Scattered flux, W.
+    RgbT<T> flux{T(0)};       ///< Scattered flux, in W.
     T radius = T(1); ///< Radius of the ball over which the flux is spread; above 0.
     std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
 };
@@ -208,7 +208,7 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 /// \param kernel   The kernel.
 /// \param visited  A counter. The number of photons whose boxes the ray meets is added
 ///                 to it.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 /// \cost One call of light_of_photon() for each box that the ray meets.
 // [tree beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>

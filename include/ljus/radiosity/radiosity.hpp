@@ -37,7 +37,7 @@ struct Radiosity {
 /// The energy balance of a solution.
 /// \param patches    The patches.
 /// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, W/m^2.
+/// \param radiosity  The radiosity of each patch, in W/m^2.
 /// \return For an exact solution, emitted is absorbed plus escaped, up to rounding, for
 ///         any size of patches and any number of rays.
 [[nodiscard]] inline EnergyBalance
@@ -73,7 +73,7 @@ template <AnyWorld W>
 /// \param world      The closed scene.
 /// \param patches    The patches.
 /// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, W/m^2.
+/// \param radiosity  The radiosity of each patch, in W/m^2.
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,

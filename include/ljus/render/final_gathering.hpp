@@ -38,7 +38,7 @@ template <std::floating_point T>
 /// \param material    The material of the surface.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
-///                    which the direction points, W/m^2.
+///                    which the direction points, in W/m^2.
 /// \param which       The lobes.
 /// \param stream      Three numbers are drawn.
 /// \return W/(m^2 sr).
@@ -137,7 +137,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// the light of lamps and of the caustics map is therefore added, and the ray continues
 /// in a sampled direction. With `lookup.paths` the same is done at a diffuse surface.
 /// With `lookup.gloss_as_mirrors`, the caustics map has counted the light that reaches
-/// the ray's origin by nearly_specular() surfaces. The ray then follows these surfaces
+/// the ray's origin via nearly_specular() surfaces. The ray then follows these surfaces
 /// as if they were mirrors.
 /// \param world      The closed scene.
 /// \param lookup     Irradiance points, or these with a caustics map.
@@ -194,7 +194,7 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
 /// Irradiance that was gathered at a point.
 template <std::floating_point T>
 struct GatheredT {
-    RgbT<T> irradiance{T(0)};          ///< Irradiance of indirect light alone, W/m^2.
+    RgbT<T> irradiance{T(0)}; ///< Irradiance of indirect light alone, in W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
     T spacing = T(0);  ///< Distance to the k-th nearest point of the cache with a

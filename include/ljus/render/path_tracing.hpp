@@ -198,7 +198,7 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
-/// \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never reached.
+/// \return Radiance, in W/(m^2 sr): an unbiased estimate if max_depth is never reached.
 /// \report{Eq. (1)}
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>

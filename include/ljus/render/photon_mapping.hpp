@@ -683,7 +683,7 @@ inline constexpr int split_survival = 16;
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts rays and photons, logs terms.
-/// \return Radiance, W/(m^2 sr); biased by the radius of the estimates and by
+/// \return Radiance, in W/(m^2 sr); biased by the radius of the estimates and by
 ///         max_depth.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
@@ -762,7 +762,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         branches.push_back(*other);
                         return true;
                     }
-                // Follows one branch; after a lookup, by mirrors and glass only.
+                // Follows one branch; after a lookup, via mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) && !through &&

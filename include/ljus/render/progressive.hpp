@@ -110,7 +110,7 @@ struct ProgressiveState {
     double shrink = 1;              ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
     long long passes = 0;           ///< Number of passes in the sums.
     std::uint64_t first_pass = 0;   ///< Hash of the first pass's picture.
-    ImageT<double> sum{};           ///< Sum of the passes, W/(m^2 sr).
+    ImageT<double> sum{};           ///< Sum of the passes, in W/(m^2 sr).
     ImageT<double> squares{};       ///< Sum of squared deviations from the mean.
     ImageT<double> block_squares{}; ///< The same sum for the means of blocks.
     /// A description of the picture in the program's own words. A checkpoint keeps the
@@ -164,7 +164,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 
 /// The picture so far.
 /// \param state  The sums of at least one pass.
-/// \return The mean of the passes, W/(m^2 sr).
+/// \return The mean of the passes, in W/(m^2 sr).
 /// \throws std::invalid_argument  if there is no pass.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> mean_image(const ProgressiveState& state) {

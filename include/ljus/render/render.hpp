@@ -121,7 +121,7 @@ template <std::floating_point T, StreamLike Stream>
 /// The result of one ray of a pixel.
 template <std::floating_point T>
 struct PixelSampleT {
-    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, in W/(m^2 sr).
     T weight = T(1);        ///< Filter weight at the ray's position.
 };
 

@@ -190,7 +190,7 @@ void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& c
 /// \param merger   World and light paths.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const VertexMerger<W>& merger, const RayT<T>& ray,

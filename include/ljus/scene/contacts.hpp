@@ -82,8 +82,8 @@ struct Contact {
         next{};             ///< The next contact of each in Contacts::pairs.
     BoxT<double> box{};     ///< A box around the shared place.
     bool over_area = false; ///< Whether they share an area, not only points.
-    bool alike = false;     ///< Whether their outsides are on the same side there.
-    bool opposed = false;   ///< Whether their outsides are on opposite sides there.
+    bool alike = false;     ///< Whether the outsides of both are on the same side.
+    bool opposed = false;   ///< Whether the outsides of both are on opposite sides.
 };
 
 /// An object that shares a place with others.

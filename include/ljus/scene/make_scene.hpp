@@ -27,7 +27,7 @@ template <Shape S, Material M>
 struct Placed {
     S shape;                       ///< The shape.
     M material;                    ///< The material.
-    RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, W/(m^2 sr).
+    RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, in W/(m^2 sr).
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 

@@ -66,7 +66,7 @@ inline constexpr std::uint32_t no_light = 0xffffffffu;
 template <std::floating_point T>
 struct ObjectT {
     MaterialId material{};   ///< The material.
-    RgbT<T> emission{T(0)};  ///< Radiance on the side of the normal, W/(m^2 sr).
+    RgbT<T> emission{T(0)};  ///< Radiance on the side of the normal, in W/(m^2 sr).
     bool inside_out = false; ///< Whether the normal points inwards.
     /// The object's number among the lights of a World.
     std::uint32_t light = no_light;

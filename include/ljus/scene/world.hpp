@@ -240,9 +240,9 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may be in an absorbing body: whether it lies in the bounding box
-    /// of all such bodies. With fog or priorities, it is the box of all transparent
-    /// bodies.
+    /// Whether a point may be in an absorbing body: whether the point lies in the
+    /// bounding box of all such bodies. In a scene with fog or priorities, the box is
+    /// that of all transparent bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
@@ -279,7 +279,7 @@ public:
     /// The number of lights, including emissive objects. Lights are numbered in the
     /// order in which they were added.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
-    /// The flux of each light, W.
+    /// The flux of each light, in W.
     [[nodiscard]] const auto& powers() const noexcept { return powers_; }
     /// The distribution of the lights by power.
     [[nodiscard]] const LightChoice& light_choice() const noexcept { return choice_; }
@@ -680,7 +680,8 @@ inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
 /// If a ray meets more holes than this in one object, it misses the object.
 inline constexpr int max_holes = 1000;
 
-/// The first hit of a ray on a shape that is not in a hole of the shape's material.
+/// The first hit of a ray on a shape. A hit in a hole of the shape's material does not
+/// count.
 /// \cost One more intersection and one more look-up in the mask for each hole.
 // [solid_hit]
 template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>

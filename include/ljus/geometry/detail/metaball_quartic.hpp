@@ -30,7 +30,7 @@ namespace ljus {
 template <std::floating_point T>
 struct BlobT {
     Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
-    T radius = T(1);       ///< R, where the field ends, above 0, in scene units.
+    T radius = T(1);       ///< R, the distance at which the field ends; above 0.
     T weight = T(1);       ///< w; a negative weight removes volume.
 };
 using Blob = BlobT<float>; ///< BlobT in float.

@@ -195,8 +195,10 @@ template <std::floating_point T>
 
 /// A counted photon.
 struct Witness {
-    std::uint32_t where = 0; ///< 64 times its brick's index plus its cell's index.
-    bool shadow = false;     ///< Whether it is a shadow photon.
+    /// The photon's cell: 64 times the index of the brick plus the index within the
+    /// brick.
+    std::uint32_t where = 0;
+    bool shadow = false; ///< Whether it is a shadow photon.
 };
 
 /// Finds the cells of photons, and inserts their bricks into the table of a grid.
