@@ -140,7 +140,7 @@ template <std::floating_point T>
 /// lobe has three more factors: the colour over its brightest channel, 1 - F for `wi`,
 /// and oren_nayar_ratio().
 /// \return The sample. Its pdf is above 0 unless it is specular.
-/// \cost Fresnel once for `wo`, and for the matt lobe once for `wi`.
+/// \cost One call of fresnel() for `wo`; for the matt lobe, another one for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -16,10 +16,13 @@ namespace ljus {
 /// light of a uniform sky that a white surface reflects, over all directions and
 /// roughnesses.
 enum class RoughModel : std::uint8_t {
-    as_printed, ///< The formula of the report's program; reflects up to 1.
-    full,       ///< Oren and Nayar's full model of 1994; reflects up to 1.05.
-    fujii,      ///< Fujii's first model; reflects up to 1.03.
-    fon         ///< Fujii's second model, roughness in [0, 1]; reflects up to 1.
+    /// The formula of the report's program. It reflects at most all of the light.
+    as_printed,
+    full,  ///< Oren and Nayar's full model of 1994; reflects up to 1.05 of the light.
+    fujii, ///< Fujii's first model; reflects up to 1.03 of the light.
+    /// Fujii's second model, with a roughness in [0, 1]. It reflects at most all of the
+    /// light.
+    fon
 };
 
 /// A two-sided matt surface by one of the models.

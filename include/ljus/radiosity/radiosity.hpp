@@ -23,7 +23,7 @@ struct RadiositySettings {
 struct EnergyBalance {
     RgbT<double> emitted{0};  ///< Flux that all patches emit.
     RgbT<double> absorbed{0}; ///< Flux that all patches absorb.
-    RgbT<double> escaped{0};  ///< Flux through openings, or to other surfaces.
+    RgbT<double> escaped{0}; ///< Flux through openings, or to surfaces without patches.
 };
 
 /// The results of radiosity, step by step.
