@@ -25,9 +25,9 @@ namespace ljus {
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
 template <std::floating_point T>
 struct QuadT {
-    Vec3T<T> corner{T(0)};             ///< \f$V_1\f$, in scene units.
-    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< \f$E_1\f$, in scene units.
-    Vec3T<T> edge_v{T(0), T(1), T(0)}; ///< \f$E_2\f$, in scene units.
+    Vec3T<T> corner{T(0)};             ///< The corner \f$V_1\f$, in scene units.
+    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< The edge \f$E_1\f$, in scene units.
+    Vec3T<T> edge_v{T(0), T(1), T(0)}; ///< The edge \f$E_2\f$, in scene units.
 };
 using Quad = QuadT<float>; ///< QuadT in float.
 

@@ -29,9 +29,9 @@ namespace ljus {
 /// undefined.}
 template <std::floating_point T>
 struct TriangleT {
-    Vec3T<T> v1{T(0)}; ///< \f$V_1\f$, in scene units.
-    Vec3T<T> v2{T(0)}; ///< \f$V_2\f$, in scene units.
-    Vec3T<T> v3{T(0)}; ///< \f$V_3\f$, in scene units.
+    Vec3T<T> v1{T(0)}; ///< The vertex \f$V_1\f$, in scene units.
+    Vec3T<T> v2{T(0)}; ///< The vertex \f$V_2\f$, in scene units.
+    Vec3T<T> v3{T(0)}; ///< The vertex \f$V_3\f$, in scene units.
 };
 using Triangle = TriangleT<float>; ///< TriangleT in float.
 

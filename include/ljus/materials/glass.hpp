@@ -163,7 +163,7 @@ struct PaneFractionsT {
 /// no interference, because a pane is thicker than the coherence length of light.
 /// \param cos_theta  Cosine between ray and normal outside, in [0, 1].
 /// \return Reflectance and transmittance. Without a tint their sum is 1.
-/// \cost fresnel() and one square root; three powers if there is a tint.
+/// \cost That of fresnel(), and one square root; three powers if there is a tint.
 // [pane]
 template <std::floating_point T>
 [[nodiscard]] PaneFractionsT<T> pane_fractions(const ThinGlassT<T>& pane,
@@ -204,7 +204,7 @@ template <std::floating_point T>
 /// \param which  The lobes to sample.
 /// \return The sample. Nothing if `wo` is parallel to the surface, or if `which` lacks
 ///         Lobes::specular.
-/// \cost pane_fractions().
+/// \cost That of pane_fractions().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -67,7 +67,7 @@ using Metal = MetalT<float>; ///< MetalT in float.
 
 /// Returns the mirror direction. Its weight is the reflectance of the metal at the
 /// angle of `wo`.
-/// \cost Three times fresnel_conductor().
+/// \cost Three calls of fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

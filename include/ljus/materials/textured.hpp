@@ -51,7 +51,7 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 /// The material at a point: the base at that point, multiplied by the colour of the
 /// texture.
-/// \cost color_at() of the texture.
+/// \cost That of color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] decltype(auto) at_point(const Textured<Base, Texture>& textured,

@@ -106,7 +106,8 @@ struct FluxAudit {
     RgbT<double> emitted{0};  ///< Flux that lights have emitted.
     RgbT<double> absorbed{0}; ///< Flux that materials and media have absorbed.
     RgbT<double> escaped{0};  ///< Flux that has left the scene.
-    /// Flux of paths that end at the depth limit, or at an object that is not the target.
+    /// Flux of paths that end at the depth limit, or at an object that is not their
+    /// target.
     RgbT<double> cut{0};
     /// Flux lost minus flux gained by random decisions: by Russian roulette, and by the
     /// choice of a wavelength. Its mean is 0.

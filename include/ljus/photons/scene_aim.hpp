@@ -166,7 +166,7 @@ struct SceneAimT {
 /// \param by_power  True if `choice` is in proportion to power. An aimed light is then
 ///                  chosen in proportion to its flux into the cone around the scene.
 /// \return The arguments of emit().
-/// \cost lit_sphere(), and at most 64 samples per light.
+/// \cost That of lit_sphere(), and at most 64 samples per light.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] SceneAimT<T>
 aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
