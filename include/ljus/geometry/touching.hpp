@@ -122,7 +122,7 @@ around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
 /// \param other     The smaller polygon.
 /// \param way       Displacement of `other` relative to `one`, from time 0 to 1.
 /// \param distance  Surfaces within this distance, in scene units, count as in one
-/// place.
+///                  place.
 /// \return As shared_place(). The box may be as large as `other`.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
@@ -227,7 +227,7 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 /// \param one       A piece.
 /// \param other     The other piece.
 /// \param distance  Surfaces within this distance, in scene units, count as in one
-/// place.
+///                  place.
 /// \return The shared place. Nothing if the pieces cross, if they share only an edge or
 ///         a corner, or if they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>

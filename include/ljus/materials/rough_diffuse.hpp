@@ -12,7 +12,7 @@ namespace ljus {
 /// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
 /// \{
 
-/// A formula that is called Oren-Nayar. The numbers are the largest fraction of the
+/// A formula that is called Oren-Nayar. Each comment gives the largest fraction of the
 /// light of a uniform sky that a white surface reflects, over all directions and
 /// roughnesses.
 enum class RoughModel : std::uint8_t {

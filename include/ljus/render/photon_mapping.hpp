@@ -261,7 +261,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
 
 /// A remark about a caustics map of fewer than 256 photons, if the mapper has chosen
 /// the radius of its estimates.
-/// \return Empty, or with a line feed.
+/// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
                                                          float radius) {
@@ -275,7 +275,7 @@ template <std::floating_point T>
 
 /// A remark about an estimate whose radius seems to be in a wrong unit. Either hardly
 /// any estimate finds a photon, or every estimate finds all photons.
-/// \return Empty, or with a line feed.
+/// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
 radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
