@@ -80,8 +80,8 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at the coordinates u and v along its edges, with its error
-/// bound. `normal` must be the result of normal(quad).
+/// The point of a quad at the coordinates u and v along the edges, with an error bound.
+/// `normal` must be the result of normal(quad).
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
                                                const Vec3T<T>& normal) noexcept {

@@ -20,8 +20,8 @@ namespace ljus {
 /// \addtogroup picture_lamp
 /// \{
 
-/// A textured lamp as a World stores it. A World makes it from an object with a
-/// radiance whose material ShowsPicture. The points of the lamp are sampled in
+/// A textured lamp as a World stores it. A World makes it from an object that emits and
+/// has a material of the concept ShowsPicture. The points of the lamp are sampled in
 /// proportion to the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {

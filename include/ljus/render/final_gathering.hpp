@@ -201,10 +201,11 @@ struct GatheredT {
                        ///< similar normal.
 };
 
-/// Gathers the indirect irradiance at a vertex, by stratified rays with a density
-/// proportional to the cosine. At any other diffuse lobe the rays are sampled from the
-/// lobe. The result is then the irradiance of a uniform light under which the lobe,
-/// seen along `wo`, would be as bright as under the actual light:
+/// Gathers the indirect irradiance at a vertex, by stratified rays. On a Lambertian
+/// surface the density of the rays is proportional to the cosine. On any other surface
+/// the rays are sampled from the diffuse lobe. The result is then the irradiance of a
+/// uniform light under which the lobe, seen along `wo`, would be as bright as under the
+/// actual light:
 ///
 /// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
 /// w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}, \f]
