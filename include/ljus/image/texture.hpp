@@ -47,8 +47,8 @@ struct GlobeMapT {
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// Uses the coordinates of the point on its own shape. The coordinates of a mesh come
-/// from its file. They are scaled, then rotated, then displaced.
+/// Maps a point to its coordinates on its own shape, which are scaled, then rotated,
+/// then displaced. The coordinates on a mesh come from the file of the mesh.
 template <std::floating_point T>
 struct UvMapT {
     static constexpr bool uses_uv = true; ///< Uses texture_coordinates() of the shape.
