@@ -74,7 +74,7 @@ struct MeshMaterial {
     /// picture without alpha takes its place.
     bool mask_is_alpha = true;
     double cutoff = 0.5;    ///< There is a hole where alpha is below this; at least 0.
-    UvMapT<double> map{};   ///< How all pictures of the material lie on it.
+    UvMapT<double> map{};   ///< How the pictures lie on the surface.
     PictureWrap wrap{};     ///< What the pictures show beyond their borders.
     PictureFilter filter{}; ///< How the pictures are filtered between pixels.
 

@@ -79,7 +79,7 @@ inline constexpr std::uint32_t no_contact = 0xffffffffu;
 struct Contact {
     std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
     std::array<std::uint32_t, 2>
-        next{};             ///< The next contact of each in Contacts::pairs.
+        next{};             ///< The next contact of each object, in Contacts::pairs.
     BoxT<double> box{};     ///< A box around the shared place.
     bool over_area = false; ///< Whether they share an area, not only points.
     bool alike = false;     ///< Whether the outsides of both are on the same side.

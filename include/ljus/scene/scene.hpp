@@ -268,7 +268,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     /// \param shape       The shape, of a listed type.
     /// \param material    The number that add() returned for the material.
     /// \param radiance    The radiance that the shape emits on the side of its normal,
-    ///                    W/(m^2 sr), in addition to the emission of the material.
+    ///                    in W/(m^2 sr). The emission of the material is added to it.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
     ///                    sphere.
     /// \return The number of the object.

@@ -140,10 +140,11 @@ template <typename Compute, std::floating_point T, typename S>
 /// The types that a list of lights has within a World.
 template <typename LightList>
 struct KeptLights;
-/// One array per type.
+/// For a list with one array per type of light.
 template <typename... L>
 struct KeptLights<std::tuple<std::vector<L>...>> {
-    using Type = std::tuple<std::vector<InSceneT<L>>...>; ///< An array per type.
+    /// The same arrays, with each light as a World stores it.
+    using Type = std::tuple<std::vector<InSceneT<L>>...>;
 };
 
 /// Whether a type is a Scene.
