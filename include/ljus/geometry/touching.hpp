@@ -31,9 +31,10 @@ struct SurfacePiece {
 
 /// The place that two pieces share.
 struct SharedPlace {
-    BoxT<double> box{};     ///< A box around the place.
-    bool over_area = false; ///< True if they share an area; false if they only touch.
-    bool alike = false;     ///< Whether the outsides of both are on the same side.
+    BoxT<double> box{}; ///< A box around the place.
+    /// True if the pieces share an area; false if they only touch.
+    bool over_area = false;
+    bool alike = false; ///< Whether the outsides of both are on the same side.
 };
 
 namespace detail {

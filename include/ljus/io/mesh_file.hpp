@@ -54,13 +54,15 @@ struct MeshImage {
 
 /// A material as a mesh file describes it.
 struct MeshMaterial {
-    std::string name{};      ///< Name in the file; empty for faces without a material.
-    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
-                             ///< above 0. In glTF the base colour.
-    glm::dvec3 specular{0};  ///< Ks, in [0, 1]; in glTF the base colour of a metal.
-    glm::dvec3 emission{0};  ///< Ke, in W/(m^2 sr), at least 0.
-    double roughness = 0;    ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
-    double index = 1.5;      ///< Index of refraction Ni, within [0.001, 1000].
+    std::string name{}; ///< Name in the file; empty for faces without a material.
+    /// Diffuse colour Kd, in [0, 1]; 1 if there is a picture and no Kd above 0. In glTF
+    /// it is the base colour.
+    glm::dvec3 diffuse{0.5};
+    /// Specular colour Ks, in [0, 1]; in glTF the base colour of a metal.
+    glm::dvec3 specular{0};
+    glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0.
+    double roughness = 0;   ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
+    double index = 1.5;     ///< Index of refraction Ni, within [0.001, 1000].
     /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
     /// for opaque.
     double dissolve = 1;

@@ -16,11 +16,12 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};          ///< Emitted radiance in W/(m^2 sr).
-    Vec3T<T> normal{T(0)};           ///< Unit normal of a flat shape, otherwise 0.
-    T area = T(0);                   ///< The area, in squared scene units.
-    bool inside_out = false;         ///< True: it emits against the normal.
-    std::vector<double> area_sums{}; ///< area_sums() of a shape that has this function.
+    RgbT<T> radiance{T(0)};  ///< Emitted radiance in W/(m^2 sr).
+    Vec3T<T> normal{T(0)};   ///< Unit normal of a flat shape, otherwise 0.
+    T area = T(0);           ///< The area, in squared scene units.
+    bool inside_out = false; ///< Whether the lamp emits against the normal.
+    /// The result of area_sums(), if the shape has this function.
+    std::vector<double> area_sums{};
 };
 
 /// A lamp: a shape that emits uniform radiance on the side of its normal or, inside
@@ -29,7 +30,7 @@ template <Shape S>
 struct AreaLightT {
     using Scalar = ScalarOf<S>; ///< The precision of its numbers.
     const S& shape;             ///< The shape, which may move.
-    const LampT<Scalar>& lamp;  ///< Precomputed data.
+    const LampT<Scalar>& lamp;  ///< The precomputed data of the lamp.
 };
 
 namespace detail {

@@ -46,7 +46,9 @@ struct EnvironmentLightT {
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
     T strength = T(1); ///< Factor of all radiance, above 0.
     T rotation_degrees =
-        T(0); ///< Turns the sky about +y, counter-clockwise from above.
+        /// Rotation of the sky about +y in degrees, counter-clockwise as seen from
+        /// above.
+        T(0);
 };
 using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in float.
 

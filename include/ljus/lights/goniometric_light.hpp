@@ -60,10 +60,11 @@ struct IntensityTable {
 ///                                .position{0, 2.4f, 0}});
 template <std::floating_point T>
 struct GoniometricLightT {
-    using Scalar = T;             ///< The precision of its numbers.
-    IntensityTable table{};       ///< The intensities.
-    Vec3T<T> position{T(0)};      ///< The position, in scene units.
-    Vec3T<T> direction{0, -1, 0}; ///< Axis along which it shines; any length but 0.
+    using Scalar = T;        ///< The precision of its numbers.
+    IntensityTable table{};  ///< The intensities.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
+    /// Axis along which the lamp shines; any length but 0.
+    Vec3T<T> direction{0, -1, 0};
     /// Determines how the lamp is turned about its direction: a vector towards
     /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
     /// need not be perpendicular to the direction, but must not be parallel to it.

@@ -18,9 +18,10 @@ struct SpotLightT {
     Vec3T<T> position{T(0)};      ///< The position, in scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
     RgbT<T> intensity{T(1)};      ///< The intensity within the inner cone, in W/sr.
-    /// The inner angle to the axis, from 0 to the outer angle.
+    /// The inner angle to the axis in degrees, from 0 to the outer angle.
     T inner_degrees = T(20);
-    T outer_degrees = T(30); ///< The outer angle to the axis, from 0.001 to 180.
+    /// The outer angle to the axis in degrees, from 0.001 to 180.
+    T outer_degrees = T(30);
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 

@@ -35,7 +35,7 @@ struct SoapFilmT {
     static constexpr bool only_specular = true;
     T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
-    T scale = T(0);       ///< h in scene units; 0: constant thickness.
+    T scale = T(0); ///< The h of the formula, in scene units; 0: constant thickness.
     Vec3T<T> level{T(0)}; ///< A point at height z = 0.
     /// The upward direction, against gravity; unit vector.
     Vec3T<T> up{T(0), T(0), T(1)};

@@ -166,7 +166,7 @@ template <std::floating_point T>
 struct LeavingAimedT {
     /// The photon; the flux is divided by the light's probability.
     LeavingPhotonT<T> photon{};
-    ObjectId target{}; ///< The object at which it is aimed.
+    ObjectId target{}; ///< The object at which the photon is aimed.
 };
 
 /// Aims a photon of a distant light at a target, uniformly over the cross section of

@@ -117,7 +117,7 @@ struct OfKinds {
 /// The photons of an estimate with the k nearest.
 struct NearestPhotons {
     std::span<const Neighbor> photons{}; ///< The photons, in no particular order.
-    double radius2 = 0;                  ///< Squared radius of their disc.
+    double radius2 = 0;                  ///< Squared radius of the disc.
 };
 
 /// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is

@@ -18,11 +18,11 @@ namespace ljus {
 
 /// The kind of a photon, by its path in Heckbert's notation \cite heckbert1990.
 enum class PhotonKind : std::uint8_t {
-    direct,   ///< L D: it comes straight from its light.
-    caustic,  ///< L S+ D: it has met mirrors and glass only.
-    indirect, ///< L ... D ... D: it has met a diffuse surface or fog before.
-    shadow,   ///< It marks a surface that is in shadow, and carries no light.
-    fog       ///< Fog scatters it; see \ref volume_photons.
+    direct,   ///< L D: the photon comes straight from its light.
+    caustic,  ///< L S+ D: the photon has met mirrors and glass only.
+    indirect, ///< L ... D ... D: the photon has met a diffuse surface or fog before.
+    shadow,   ///< The photon marks a surface that is in shadow, and carries no light.
+    fog       ///< Fog scatters the photon; see \ref volume_photons.
 };
 
 /// A set of kinds. Each kind has one bit: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16

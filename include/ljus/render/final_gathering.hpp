@@ -66,7 +66,8 @@ struct GatherLookupT {
     IrradiancePointSettings irradiance{}; ///< How the points were made.
     /// The caustics map, for such estimates and for glossy surfaces; may be null.
     const PhotonMapT<T>* caustics = nullptr;
-    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
+    /// How caustics on glossy surfaces are estimated.
+    DensityEstimateSettings caustics_estimate{};
     /// Whether nearly specular objects counted as mirrors when the caustics map was
     /// made, see PhotonPassSettings::gloss_as_mirrors.
     bool gloss_as_mirrors = false;

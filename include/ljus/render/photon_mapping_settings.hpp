@@ -63,7 +63,8 @@ struct PhotonMappingSettings {
     int roulette_depth = 4;
     int shadow_rays = 1; ///< Shadow rays to each light, at least 1.
     DirectLight direct = DirectLight::sampled; ///< How direct light is found.
-    bool split_glass = false; ///< Split paths at glass before the first matt surface.
+    /// Whether paths split at glass before the first matt surface.
+    bool split_glass = false;
     IndirectLight indirect = IndirectLight::rays; ///< Source of indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all other light.

@@ -26,8 +26,8 @@ namespace ljus {
 
 /// The mean of many passes: the plain twin of run_progressive(). Pass i has the radius
 /// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$. After n passes
-/// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and its squared
-/// bias to \f$ n^{-2(1-\alpha)} \f$.
+/// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and the squared
+/// bias of the mean to \f$ n^{-2(1-\alpha)} \f$.
 /// \param passes  n, at least 1.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
 /// \param alpha   In (0, 1]; with 1 the radius is constant.

@@ -91,8 +91,8 @@ struct PictureRays {
 
 /// One ray of a picture.
 struct PixelRay {
-    int x = 0;      ///< Column of its pixel.
-    int y = 0;      ///< Row of its pixel.
+    int x = 0;      ///< Column of the pixel.
+    int y = 0;      ///< Row of the pixel.
     int number = 0; ///< Number of the ray within the pixel.
 };
 

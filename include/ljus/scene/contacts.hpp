@@ -81,7 +81,7 @@ struct Contact {
     std::array<std::uint32_t, 2>
         next{};             ///< The next contact of each object, in Contacts::pairs.
     BoxT<double> box{};     ///< A box around the shared place.
-    bool over_area = false; ///< Whether they share an area, not only points.
+    bool over_area = false; ///< Whether the objects share an area, not only points.
     bool alike = false;     ///< Whether the outsides of both are on the same side.
     bool opposed = false;   ///< Whether the outsides of both are on opposite sides.
 };
@@ -89,7 +89,7 @@ struct Contact {
 /// An object that shares a place with others.
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
-    ContactKind kind = ContactKind::opaque; ///< The kind of its surface.
+    ContactKind kind = ContactKind::opaque; ///< The kind of the object's surface.
     /// The key; of several surfaces, a path meets that with the smallest key.
     ContactKey key{};
     std::uint32_t contact = no_contact; ///< The object's first contact.
@@ -250,7 +250,8 @@ struct ContactSearch {
     std::span<const ContactObject> objects;
     double epsilon; ///< Machine epsilon of the precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
-    FunctionRef<void(ContactKey&, ObjectId)> put; ///< Writes emission and material.
+    /// Writes the emission and the material of an object into a key.
+    FunctionRef<void(ContactKey&, ObjectId)> put;
 };
 
 /// Finds the contacts of a scene, without knowing the scene's types.

@@ -105,7 +105,7 @@ template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;
 
-/// An empty scene with these lists.
+/// An empty scene with these lists of types.
 template <typename... S, typename... M, typename... L>
 [[nodiscard]] Scene<Shapes<S...>, Materials<M...>, Lights<L...>>
 scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {

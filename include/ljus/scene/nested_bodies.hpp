@@ -35,9 +35,10 @@ namespace ljus {
 /// The boundary that a path crosses if it passes through a surface.
 template <std::floating_point T>
 struct CrossingT {
-    SceneHitT<T> hit{};   ///< The surface, chosen from all surfaces in the place.
-    BodyList before{};    ///< The bodies before the surface.
-    BodyList behind{};    ///< The bodies behind it; unchanged if it is opaque or thin.
+    SceneHitT<T> hit{}; ///< The surface, chosen from all surfaces in the place.
+    BodyList before{};  ///< The bodies before the surface.
+    /// The bodies behind the surface; unchanged if it is opaque or thin.
+    BodyList behind{};
     bool hidden = false;  ///< Whether the surface is ignored.
     bool entered = false; ///< Whether the surface belongs to the body behind it.
 

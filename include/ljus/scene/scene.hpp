@@ -76,7 +76,7 @@ struct ObjectT {
 struct AddedId {
     std::uint32_t type = 0;  ///< Position in Shapes<...> or in Lights<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
-    bool is_light = false;   ///< Whether it is a light, not an object.
+    bool is_light = false;   ///< True for a light, false for an object.
 };
 
 namespace detail {
@@ -85,7 +85,7 @@ namespace detail {
 /// last type.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
-/// type_number for at least two types.
+/// The case of at least two types.
 template <typename X, typename First, typename Second, typename... List>
 inline constexpr std::uint32_t type_number<X, First, Second, List...> =
     std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
@@ -173,7 +173,7 @@ public:
 private:
     std::list<P> kept_; // a list, because its elements are never moved
 };
-/// For shapes that refer to nothing.
+/// The case of shapes that refer to nothing.
 template <>
 class Prototypes<void> {
 public:
@@ -325,7 +325,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                       "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Reports, at compile time, an unlisted shape or a material instead of its number.
+    /// Reports, at compile time, an unlisted shape, or a material in place of its
+    /// number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");

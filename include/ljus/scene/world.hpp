@@ -769,8 +769,8 @@ using WorldRef = Ref<typename detail::Closed<W>::Type>;
 template <std::floating_point T>
 struct PlaceHitT {
     SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
-    MaterialId left = no_body;    ///< The material of a body that ends there.
-    MaterialId entered = no_body; ///< The material of a body that begins there.
+    MaterialId left = no_body;    ///< The material of a body that ends at the hit.
+    MaterialId entered = no_body; ///< The material of a body that begins at the hit.
     T depth = T(0); ///< The largest distance of the other surfaces, in scene units.
 };
 

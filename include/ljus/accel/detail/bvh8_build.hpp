@@ -117,7 +117,8 @@ private:
 /// A node with up to eight children. The boxes of the children are stored coordinate by
 /// coordinate \cite wald2008.
 struct Bvh8Node {
-    std::array<Lanes, 6> plane; ///< Low x, y, z, then high x, y, z.
+    /// The planes of the boxes: low x, y, z, then high x, y, z.
+    std::array<Lanes, 6> plane;
     /// The children, encoded as in Bvh8Child.
     std::array<std::uint32_t, lane_count> child;
 };

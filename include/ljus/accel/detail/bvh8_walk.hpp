@@ -18,7 +18,7 @@ namespace ljus::detail {
 /// A ray prepared for wide nodes.
 struct Bvh8Ray {
     Vec3 inverse{1};    ///< 1 over the direction; finite also where the direction is 0.
-    Vec3 near_shift{0}; ///< Near planes: t = plane * inverse - shift.
+    Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
     Vec3 far_shift{0};  ///< The same for far planes.
     /// For each axis, the plane that the ray meets first.
     std::array<std::size_t, 3> near{};

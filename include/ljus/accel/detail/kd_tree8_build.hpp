@@ -104,7 +104,7 @@ struct KdTree8ItemT {
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
-    using Item = KdTree8ItemT<T>;                 ///< The type of its elements.
+    using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
     /// Pieces that were read. Other lists of the same thread use them again, because

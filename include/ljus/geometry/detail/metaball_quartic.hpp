@@ -31,7 +31,7 @@ template <std::floating_point T>
 struct BlobT {
     Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
     T radius = T(1);       ///< R, the distance at which the field ends; above 0.
-    T weight = T(1);       ///< w; a negative weight removes volume.
+    T weight = T(1);       ///< The weight w; a negative weight removes volume.
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 

@@ -198,7 +198,7 @@ struct Witness {
     /// The photon's cell: 64 times the index of the brick plus the index within the
     /// brick.
     std::uint32_t where = 0;
-    bool shadow = false; ///< Whether it is a shadow photon.
+    bool shadow = false; ///< True for a shadow photon, false for a direct one.
 };
 
 /// Finds the cells of photons, and inserts their bricks into the table of a grid.
