@@ -75,7 +75,7 @@ template <std::floating_point T>
     return std::numbers::pi_v<T> * disc.radius * disc.radius;
 }
 
-/// The point of a disc at the coordinates u and v of intersect(), with its error bound.
+/// The point of a disc at the coordinates u and v of intersect(), with an error bound.
 /// `normal` must be the result of normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const DiscT<T>& disc, T u, T v,

@@ -63,7 +63,7 @@ concept Shape = HasBoundingSphere<S> &&
     check(shape);
 };
 
-/// Whether the area of a shape is known. A shape without it, such as metaballs, cannot
+/// Whether the area of a shape is known. A shape without an area, such as metaballs, cannot
 /// be a light.
 template <typename S>
 concept HasArea = requires(const S& shape) {

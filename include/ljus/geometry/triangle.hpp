@@ -94,7 +94,7 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u and v, with its error
+/// The point of a triangle with the barycentric coordinates u and v, with an error
 /// bound. u and v are the weights of the second and the third vertex. `normal` must be
 /// the result of normal(triangle).
 template <std::floating_point T>

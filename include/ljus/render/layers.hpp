@@ -26,7 +26,7 @@ namespace ljus {
 /// A layer with the light of some paths.
 struct PathLayer {
     std::string name{};  ///< Name of the layer, such as "caustics".
-    std::string paths{}; ///< The class of its light paths, as in
+    std::string paths{}; ///< The class of the light paths, as in
                          ///< light_path_expression().
 };
 
