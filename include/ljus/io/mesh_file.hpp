@@ -66,8 +66,8 @@ struct MeshMaterial {
     /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
     /// for opaque.
     double dissolve = 1;
-    /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. These four are
-    /// not glass if Ni is 1, because some programs write them for every material.
+    /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. These four
+    /// are not glass if Ni is 1, because some programs write them for every material.
     int illumination = 2;
     MeshImage picture{}; ///< A picture of colours, which are multiplied by `diffuse`.
     MeshImage mask{};    ///< A picture of alpha, which cuts holes; see Holes.
@@ -117,7 +117,7 @@ struct LoadedMeshT {
     /// normals.
     std::map<std::string, ImageT<T>> pictures{};
     std::vector<MeshCameraT<T>> cameras{}; ///< Cameras of a glTF file, in the order of
-                                           ///< its nodes.
+                                           ///< the nodes.
     std::vector<PointLightT<T>> points{};  ///< Point lights of a glTF file.
     std::vector<SpotLightT<T>> spots{};    ///< Spot lights of a glTF file.
     std::vector<SunLightT<T>> suns{};      ///< Directional lights of a glTF file.

@@ -54,10 +54,12 @@ struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
-    double area = 0;        ///< Size of the caustic: flux over mean irradiance.
+    double area = 0;        ///< Area of the caustic: flux over mean irradiance.
     double absolute = 0;    ///< Scatter of the irradiance, in W.
-    double relative = 0;    ///< Scatter relative to the caustic's mean, as an area.
-    double visible = 0;     ///< Scatter relative to all light, as an area.
+    /// Scatter relative to the caustic's mean irradiance, in squared scene units.
+    double relative = 0;
+    /// Scatter relative to the irradiance of all light, in squared scene units.
+    double visible = 0;
 };
 
 namespace detail {
