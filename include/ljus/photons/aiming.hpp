@@ -324,7 +324,7 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 /// \param targets  The objects, at least one.
 /// \param shares   The probabilities, which must pass check_shares(). If empty, the
 ///                 function does the same as aim().
-/// \param stream   With shares, one number more is drawn than by aim().
+/// \param stream   With shares, one more number is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>

@@ -107,7 +107,7 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
 
 /// How a light map is drawn.
 struct LightMapSettings {
-    bool smooth = true; ///< True: interpolated between vertices; false: flat patches.
+    bool smooth = true; ///< Whether irradiance is interpolated between vertices.
 };
 
 /// A renderer that draws a light map, by `render(view, camera, picture)`.
