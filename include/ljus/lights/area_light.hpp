@@ -156,7 +156,7 @@ requires detail::is_lamp<L>
     return {point.normal, T(1)};
 }
 
-/// The form factor from a point with a unit normal to the lamp.
+/// The form factor to the lamp from a point of a surface with the given unit normal.
 /// \return In [0, 1]; nothing if the shape has no closed form.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
