@@ -33,8 +33,8 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its length is
-/// the area.
+/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
+/// length is the area.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});

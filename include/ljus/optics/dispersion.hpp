@@ -38,7 +38,7 @@ using Sellmeier = SellmeierT<float>; ///< SellmeierT in float.
 template <std::floating_point T>
 struct CauchyT {
     T a = T(1.5); ///< A: the index for long waves.
-    T b = T(0);   ///< B, in micrometres^2; 0 for no dispersion.
+    T b = T(0);   ///< B: the dispersion, in micrometres^2; 0 for none.
 };
 using Cauchy = CauchyT<float>; ///< CauchyT in float.
 

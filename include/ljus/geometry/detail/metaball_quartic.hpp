@@ -30,7 +30,7 @@ namespace ljus {
 template <std::floating_point T>
 struct BlobT {
     Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
-    T radius = T(1);       ///< R, the distance at which the field ends; above 0.
+    T radius = T(1);       ///< The radius R at which the field ends, above 0.
     T weight = T(1);       ///< The weight w; a negative weight removes volume.
 };
 using Blob = BlobT<float>; ///< BlobT in float.
@@ -92,7 +92,7 @@ template <std::floating_point T>
 template <std::floating_point C>
 struct StrandsT {
     std::array<StrandT<C>, 16> few; ///< Holds all strands if there are at most 16.
-    std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more.
+    std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more than 16.
     std::size_t count = 0;          ///< Number of strands.
     void add(const StrandT<C>& strand) {
         if (count < few.size())
