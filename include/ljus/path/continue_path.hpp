@@ -21,9 +21,9 @@ namespace ljus {
 /// |-----------------------------------|----------------------------------------------|
 /// | wo of a camera path               | the geometric normal becomes the z axis      |
 /// | wo of a photon                    | the same, and non-specular lobes absorb it   |
-/// | of a shadow ray, a stored photon  | there is no light                            |
-/// | sampled, from a mirror or glass   | sampled again around the geometric normal    |
-/// | sampled, from any other lobe      | the path ends                                |
+/// | of a shadow ray or stored photon  | there is no light                            |
+/// | sampled from a mirror or glass    | sampled again around the geometric normal    |
+/// | sampled from any other lobe       | the path ends                                |
 /// \{
 
 /// A scattered direction.
