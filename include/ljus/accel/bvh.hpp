@@ -25,8 +25,9 @@ struct NoTrace {
 // [nearest]
 template <std::floating_point T>
 struct NearestHitT {
-    ShapeHitT<T> at{};                                                ///< The hit.
-    std::uint32_t number = std::numeric_limits<std::uint32_t>::max(); ///< Its index.
+    ShapeHitT<T> at{}; ///< The hit.
+    /// Index of the primitive.
+    std::uint32_t number = std::numeric_limits<std::uint32_t>::max();
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 

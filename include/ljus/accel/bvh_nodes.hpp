@@ -41,7 +41,7 @@ static_assert(sizeof(BvhNodeT<float>) == 32);
 /// leaves.
 template <std::floating_point T>
 struct BvhNodesT {
-    GrowingArray<BvhNodeT<T>> nodes{}; ///< Empty for an empty tree.
+    GrowingArray<BvhNodeT<T>> nodes{}; ///< The nodes; none in an empty tree.
     std::vector<std::uint32_t>
         primitive_ids{}; ///< primitive_ids[slot] is the index of a primitive.
 };

@@ -346,9 +346,9 @@ template <std::floating_point T>
     return {point, pdf};
 }
 
-/// A box around an instance: the intersection of a box around the transformed box of
-/// the mesh and a box around the ellipsoid into which the sphere of the mesh is
-/// transformed.
+/// A box around an instance. It is the intersection of two boxes: one around the
+/// transformed box of the mesh, and one around the ellipsoid that results from the
+/// sphere of the mesh.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
     using Wide = Vec3T<WideT<T>>;

@@ -33,8 +33,8 @@ public:
     /// \param data     Vertices and triangles. Triangles without an area are kept, but
     ///                 are never hit.
     /// \param threads  The number of threads that build the tree; 0 for all processors.
-    /// \throws std::invalid_argument  if check() refuses the data, or if the area is
-    ///         not finite and above 0.
+    /// \throws std::invalid_argument  if check() refuses the data, or unless the area
+    ///         is finite and above 0.
     /// \cost O(n log n) for n triangles.
     explicit MeshT(MeshDataT<T> data, int threads = 0) : data_(std::move(data)) {
         check(data_);

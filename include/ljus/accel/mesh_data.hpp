@@ -23,7 +23,8 @@ template <std::floating_point T>
 struct MeshDataT {
     std::vector<Vec3T<T>> positions{}; ///< Positions of vertices.
     std::vector<Vec3T<T>> normals{};   ///< Unit normals, one per vertex; or empty.
-    std::vector<std::array<std::uint32_t, 3>> triangles{}; ///< Indices of vertices.
+    /// The triangles, as indices of vertices.
+    std::vector<std::array<std::uint32_t, 3>> triangles{};
     std::vector<Vec2T<T>> uv{}; ///< Texture coordinates, one per vertex; or empty.
 };
 using MeshData = MeshDataT<float>; ///< MeshDataT in float.

@@ -17,9 +17,9 @@ namespace detail {
 
 /// Up to eight triangles, stored coordinate by coordinate.
 struct alignas(64) TriangleLanes {
-    Lanes3 v1{};  ///< First corners.
-    Lanes3 v2{};  ///< Second corners.
-    Lanes3 v3{};  ///< Third corners.
+    Lanes3 v1{};  ///< The first corners of the triangles.
+    Lanes3 v2{};  ///< The second corners of the triangles.
+    Lanes3 v3{};  ///< The third corners of the triangles.
     Lanes size{}; ///< Largest absolute component of two edges; negative if unused.
 };
 

@@ -30,8 +30,8 @@ namespace ljus {
 template <std::floating_point T>
 struct CylinderT {
     Vec3T<T> base{T(0)};             ///< One end of the axis, in scene units.
-    Vec3T<T> axis{T(0), T(1), T(0)}; ///< A, from the base to the other end.
-    T radius = T(1);                 ///< R, above 0, in scene units.
+    Vec3T<T> axis{T(0), T(1), T(0)}; ///< The axis A, from the base to the other end.
+    T radius = T(1);                 ///< The radius R, above 0, in scene units.
 };
 using Cylinder = CylinderT<float>; ///< CylinderT in float.
 

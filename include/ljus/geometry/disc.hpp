@@ -25,9 +25,10 @@ namespace ljus {
 /// The points of a plane within the distance R of a centre.
 template <std::floating_point T>
 struct DiscT {
-    Vec3T<T> center{T(0)};             ///< C, in scene units.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< N, towards the front; any length except 0.
-    T radius = T(1);                   ///< R, above 0, in scene units.
+    Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
+    /// The normal N, towards the front; any length except 0.
+    Vec3T<T> normal{T(0), T(0), T(1)};
+    T radius = T(1); ///< The radius R, above 0, in scene units.
 };
 using Disc = DiscT<float>; ///< DiscT in float.
 
@@ -74,7 +75,7 @@ template <std::floating_point T>
     return std::numbers::pi_v<T> * disc.radius * disc.radius;
 }
 
-/// The point of a disc at the coordinates u and v of intersect(), with its error bound.
+/// The point of a disc at the coordinates u and v of intersect(), with an error bound.
 /// `normal` must be the result of normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const DiscT<T>& disc, T u, T v,

@@ -24,7 +24,7 @@ namespace ljus {
 
 /// A convex polygon. Its corners turn counter-clockwise as seen from its front.
 struct Facet {
-    std::array<glm::dvec3, 6> corners{}; ///< The first `count` are used.
+    std::array<glm::dvec3, 6> corners{}; ///< The corners: the first `count` elements.
     int count = 0;                       ///< The number of corners.
 };
 

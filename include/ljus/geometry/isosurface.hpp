@@ -33,7 +33,7 @@ concept LipschitzField = requires(const F& field, Vec3T<double> x) {
 /// \report{Section 2.1}
 template <std::floating_point T, LipschitzField Field>
 struct IsosurfaceT {
-    Field field{};       ///< Positive inside, negative outside.
+    Field field{};       ///< The field, positive inside and negative outside.
     SphereT<T> bounds{}; ///< A sphere around the whole surface, with a margin.
 };
 template <LipschitzField Field>
@@ -47,10 +47,10 @@ struct LipschitzLine {
     const Field& field; ///< The field.
     RayT<double> ray{}; ///< The ray.
     double length = 0;  ///< Length of the ray's direction.
-    double enter = 0;   ///< Where the ray enters the bounds.
-    double leave = 0;   ///< Where the ray leaves the bounds.
+    double enter = 0;   ///< The t at which the ray enters the bounds.
+    double leave = 0;   ///< The t at which the ray leaves the bounds.
 
-    /// f(O + tD).
+    /// The field at the point O + tD.
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
     /// A bound on |df/dt|.
     [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
@@ -142,8 +142,8 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses an isosurface if the centre of `bounds` is not finite, or if the radius of
-/// `bounds` or the Lipschitz bound is not finite and above 0.
+/// Refuses an isosurface unless the centre of `bounds` is finite, and the radius of
+/// `bounds` and the Lipschitz bound are finite and above 0.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {

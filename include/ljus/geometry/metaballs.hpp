@@ -27,8 +27,8 @@ namespace ljus {
 // [metaballs]
 template <std::floating_point T>
 struct MetaballsT {
-    std::vector<BlobT<T>> blobs{}; ///< One or more.
-    T level = T(0.25); ///< L: above 0, below the sum of the positive weights.
+    std::vector<BlobT<T>> blobs{}; ///< The blobs, at least one.
+    T level = T(0.25); ///< The level L: above 0, below the sum of positive weights.
 };
 using Metaballs = MetaballsT<float>; ///< MetaballsT in float.
 // [metaballs]

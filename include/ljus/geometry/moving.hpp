@@ -27,8 +27,9 @@ concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>&
 // [moving]
 template <Movable S>
 struct Moving {
-    S shape{};                          ///< The shape at time 0.
-    Vec3T<ScalarOf<S>> displacement{0}; ///< From time 0 to 1, in scene units.
+    S shape{}; ///< The shape at time 0.
+    /// The displacement from time 0 to time 1, in scene units.
+    Vec3T<ScalarOf<S>> displacement{0};
 };
 // [moving]
 

@@ -29,7 +29,8 @@ namespace ljus {
 template <std::floating_point T>
 struct RotationT {
     Vec3T<T> axis{T(0), T(1), T(0)}; ///< The axis, of any length except 0.
-    T degrees = T(0); ///< Counter-clockwise for a viewer to whom the axis points.
+    /// The angle in degrees, counter-clockwise for a viewer to whom the axis points.
+    T degrees = T(0);
 };
 
 /// Scaling, then rotation, then translation.

@@ -25,16 +25,16 @@ namespace ljus {
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
 template <std::floating_point T>
 struct QuadT {
-    Vec3T<T> corner{T(0)};             ///< \f$V_1\f$, in scene units.
-    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< \f$E_1\f$, in scene units.
-    Vec3T<T> edge_v{T(0), T(1), T(0)}; ///< \f$E_2\f$, in scene units.
+    Vec3T<T> corner{T(0)};             ///< The corner \f$V_1\f$, in scene units.
+    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< The edge \f$E_1\f$, in scene units.
+    Vec3T<T> edge_v{T(0), T(1), T(0)}; ///< The edge \f$E_2\f$, in scene units.
 };
 using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its length is
-/// the area.
+/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
+/// length is the area.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
@@ -80,8 +80,8 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(quad)));
 }
 
-/// The point of a quad at the coordinates u and v along its edges, with its error
-/// bound. `normal` must be the result of normal(quad).
+/// The point of a quad at the coordinates u and v along the edges, with an error bound.
+/// `normal` must be the result of normal(quad).
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u, T v,
                                                const Vec3T<T>& normal) noexcept {

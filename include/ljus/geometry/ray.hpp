@@ -25,11 +25,11 @@ namespace ljus {
 // [ray]
 template <std::floating_point T>
 struct RayT {
-    Vec3T<T> origin{T(0)};                        ///< O, in scene units.
-    Vec3T<T> direction{T(0), T(0), T(-1)};        ///< D, of any length except 0.
-    T t_min = T(0);                               ///< First t that counts, >= 0.
-    T t_max = std::numeric_limits<T>::infinity(); ///< Last t that counts.
-    T time = T(0); ///< In [0, 1]: the shutter opens at 0 and closes at 1.
+    Vec3T<T> origin{T(0)};                 ///< The origin O, in scene units.
+    Vec3T<T> direction{T(0), T(0), T(-1)}; ///< The direction D, of any length except 0.
+    T t_min = T(0);                        ///< The smallest t of a hit, >= 0.
+    T t_max = std::numeric_limits<T>::infinity(); ///< The largest t of a hit.
+    T time = T(0); ///< The time in [0, 1]: the shutter opens at 0 and closes at 1.
 };
 using Ray = RayT<float>; ///< RayT in float.
 // [ray]

@@ -63,8 +63,8 @@ concept Shape = HasBoundingSphere<S> &&
     check(shape);
 };
 
-/// Whether the area of a shape is known. A shape without it, such as metaballs, cannot
-/// be a light.
+/// Whether the area of a shape is known. A shape without an area, such as metaballs,
+/// cannot be a light.
 template <typename S>
 concept HasArea = requires(const S& shape) {
     { area(shape) } -> std::same_as<ScalarOf<S>>;

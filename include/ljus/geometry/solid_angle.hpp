@@ -22,7 +22,7 @@ namespace ljus {
 template <std::floating_point T>
 struct SeenPointT {
     SurfacePointT<T> point{}; ///< The point.
-    T pdf = T(0);             ///< Its density, per steradian at the observer.
+    T pdf = T(0);             ///< The density, per steradian at the observer.
 };
 
 namespace detail {

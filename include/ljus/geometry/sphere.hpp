@@ -29,8 +29,8 @@ namespace ljus {
 // [sphere]
 template <std::floating_point T>
 struct SphereT {
-    Vec3T<T> center{T(0)}; ///< C, in scene units.
-    T radius = T(1);       ///< R, above 0, in scene units.
+    Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
+    T radius = T(1);       ///< The radius R, above 0, in scene units.
 };
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
@@ -341,8 +341,7 @@ template <std::floating_point T>
     return globe_coordinates(point.normal);
 }
 
-/// Refuses a sphere if its centre is not finite or its radius is not finite and above
-/// 0.
+/// Refuses a sphere unless its centre is finite, and its radius is finite and above 0.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const SphereT<T>& sphere) {

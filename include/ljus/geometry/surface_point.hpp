@@ -188,8 +188,8 @@ template <std::floating_point C>
 
 /// The figure that two edges span from a corner.
 enum class Spanned : std::uint8_t {
-    triangle,     ///< u and v at least 0, u + v at most 1.
-    parallelogram ///< u and v in [0, 1].
+    triangle,     ///< A triangle: u and v are at least 0, and u + v is at most 1.
+    parallelogram ///< A parallelogram: u and v are in [0, 1].
 };
 
 /// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.

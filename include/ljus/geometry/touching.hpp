@@ -31,9 +31,10 @@ struct SurfacePiece {
 
 /// The place that two pieces share.
 struct SharedPlace {
-    BoxT<double> box{};     ///< A box around the place.
-    bool over_area = false; ///< True if they share an area; false if they only touch.
-    bool alike = false;     ///< Whether the outsides of both are on the same side.
+    BoxT<double> box{}; ///< A box around the place.
+    /// True if the pieces share an area; false if they only touch.
+    bool over_area = false;
+    bool alike = false; ///< Whether the outsides of both are on the same side.
 };
 
 namespace detail {
@@ -121,7 +122,8 @@ around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
 /// \param one       The larger polygon.
 /// \param other     The smaller polygon.
 /// \param way       Displacement of `other` relative to `one`, from time 0 to 1.
-/// \param distance  Surfaces within this distance, in scene units, coincide.
+/// \param distance  Surfaces within this distance, in scene units, count as in one
+///                  place.
 /// \return As shared_place(). The box may be as large as `other`.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
@@ -225,7 +227,8 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 /// The place that two pieces of surfaces share at any time in [0, 1].
 /// \param one       A piece.
 /// \param other     The other piece.
-/// \param distance  Surfaces within this distance, in scene units, coincide.
+/// \param distance  Surfaces within this distance, in scene units, count as in one
+///                  place.
 /// \return The shared place. Nothing if the pieces cross, if they share only an edge or
 ///         a corner, or if they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>

@@ -29,16 +29,17 @@ namespace ljus {
 /// undefined.}
 template <std::floating_point T>
 struct TriangleT {
-    Vec3T<T> v1{T(0)}; ///< \f$V_1\f$, in scene units.
-    Vec3T<T> v2{T(0)}; ///< \f$V_2\f$, in scene units.
-    Vec3T<T> v3{T(0)}; ///< \f$V_3\f$, in scene units.
+    Vec3T<T> v1{T(0)}; ///< The vertex \f$V_1\f$, in scene units.
+    Vec3T<T> v2{T(0)}; ///< The vertex \f$V_2\f$, in scene units.
+    Vec3T<T> v3{T(0)}; ///< The vertex \f$V_3\f$, in scene units.
 };
 using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its length is
-/// twice the area. In float, the normal of a thin triangle would be inaccurate.
+/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
+/// length is twice the area. In float, the normal of a thin triangle would be
+/// inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -94,9 +95,9 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u and v, which are the
-/// weights of the second and the third vertex. The error bound of the position lies
-/// within the plane. `normal` must be the result of normal(triangle).
+/// The point of a triangle with the barycentric coordinates u and v, with an error
+/// bound. u and v are the weights of the second and the third vertex. `normal` must be
+/// the result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {

@@ -27,12 +27,13 @@ namespace detail {
 /// It is the same for all triangles.
 template <std::floating_point T>
 struct ShearT {
-    int x = 0;     ///< The axis that becomes x.
-    int y = 1;     ///< The axis that becomes y.
-    int z = 2;     ///< The axis of the direction's largest component.
-    T sx = T(0);   ///< x/z of the direction after the exchange, in [-1, 1].
-    T sy = T(0);   ///< y/z of the direction after the exchange, in [-1, 1].
-    double sz = 1; ///< 1/z after the exchange, which may exceed the range of T.
+    int x = 0;   ///< The axis that becomes x.
+    int y = 1;   ///< The axis that becomes y.
+    int z = 2;   ///< The axis of the direction's largest component.
+    T sx = T(0); ///< The shear along x: \f$ D_x / D_z \f$, in [-1, 1].
+    T sy = T(0); ///< The shear along y: \f$ D_y / D_z \f$, in [-1, 1].
+    /// The scale along z: \f$ 1 / D_z \f$, which may exceed the range of T.
+    double sz = 1;
 };
 
 } // namespace detail

@@ -67,8 +67,9 @@ template <std::floating_point T>
 /// position.
 template <std::floating_point T>
 struct FilterSampleT {
-    Vec2T<T> place{T(0)}; ///< Measured from the pixel's upper left corner, in pixels.
-    T weight = T(1);      ///< The filter over the pdf; the mean of all weights is 1.
+    /// The position in pixels, from the pixel's upper left corner.
+    Vec2T<T> place{T(0)};
+    T weight = T(1); ///< The filter over the pdf; the mean of all weights is 1.
 };
 
 namespace detail {

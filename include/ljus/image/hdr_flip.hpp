@@ -18,11 +18,10 @@ namespace detail {
 
 /// The range of exposures of HDR-FLIP.
 struct Exposures {
-    /// The exposure, in stops, at which the brightest pixel is nearly white.
+    /// First exposure, in stops: the brightest pixel is nearly white.
     double first = 0;
-    /// The exposure, in stops, at which half of the pixels are at least nearly white.
-    double last = 0;
-    int count = 2; ///< Number of exposures, about one per stop, at least 2.
+    double last = 0; ///< Last exposure, in stops: half of the pixels are nearly white.
+    int count = 2;   ///< Number of exposures, about one per stop, at least 2.
 };
 
 /// The response of a film to light x, by Narkowicz's fit of the ACES curve, without the

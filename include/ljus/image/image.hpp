@@ -26,9 +26,10 @@ inline constexpr long long max_pixels = 1LL << 28;
 /// A rectangle of linear colours; see make_image().
 template <std::floating_point T>
 struct ImageT {
-    int width = 0;               ///< Pixels per row.
-    int height = 0;              ///< Number of rows.
-    std::vector<RgbT<T>> pixels; ///< Row by row, from the top left: y * width + x.
+    int width = 0;  ///< Pixels per row.
+    int height = 0; ///< Number of rows.
+    /// The pixels, row by row from the top left; (x, y) has the index y * width + x.
+    std::vector<RgbT<T>> pixels;
 };
 using Image = ImageT<float>; ///< ImageT in float.
 

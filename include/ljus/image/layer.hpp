@@ -18,8 +18,9 @@ namespace ljus {
 /// One layer of a picture.
 template <std::floating_point T>
 struct LayerT {
-    std::string name{}; ///< E.g. "albedo"; "" for the picture.
-    std::vector<std::string> channels{"R", "G", "B"}; ///< Three names, or one.
+    std::string name{}; ///< The name, e.g. "albedo"; empty for the picture itself.
+    /// The names of three channels, or of one.
+    std::vector<std::string> channels{"R", "G", "B"};
     ImageT<T> image{}; ///< The values. A single channel is repeated in all three.
 };
 using Layer = LayerT<float>; ///< LayerT in float.

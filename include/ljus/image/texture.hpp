@@ -32,9 +32,10 @@ namespace ljus {
 /// the plane has (u, v) = (0, 0), and `origin + edge_u` has (1, 0).
 template <std::floating_point T>
 struct PlaneMapT {
-    Vec3T<T> origin{T(0)};             ///< The point with (u, v) = (0, 0).
-    Vec3T<T> edge_u{T(1), T(0), T(0)}; ///< From u = 0 to u = 1, in scene units.
-    /// From v = 0 to v = 1, in scene units; perpendicular to `edge_u`.
+    Vec3T<T> origin{T(0)}; ///< The point with (u, v) = (0, 0).
+    /// The edge from u = 0 to u = 1, in scene units.
+    Vec3T<T> edge_u{T(1), T(0), T(0)};
+    /// The edge from v = 0 to v = 1, perpendicular to edge_u.
     Vec3T<T> edge_v{T(0), T(0), T(1)};
 };
 using PlaneMap = PlaneMapT<float>; ///< PlaneMapT in float.
@@ -46,14 +47,14 @@ struct GlobeMapT {
 };
 using GlobeMap = GlobeMapT<float>; ///< GlobeMapT in float.
 
-/// Uses the coordinates of the point on its own shape. The coordinates of a mesh come
-/// from its file. They are scaled, then rotated, then displaced.
+/// Maps a point to its coordinates on its own shape, which are scaled, then rotated,
+/// then displaced. The coordinates on a mesh come from the file of the mesh.
 template <std::floating_point T>
 struct UvMapT {
-    static constexpr bool uses_uv = true; ///< See texture_coordinates().
+    static constexpr bool uses_uv = true; ///< Uses texture_coordinates() of the shape.
     Vec2T<T> scale{T(1)};                 ///< Repetitions per unit of u and v.
     Vec2T<T> turn{T(1), T(0)};            ///< Cosine and sine of the angle of rotation.
-    Vec2T<T> offset{T(0)};                ///< Displacement of u and v; 1 is a period.
+    Vec2T<T> offset{T(0)}; ///< Displacement of the picture, in repetitions.
 };
 using UvMap = UvMapT<float>; ///< UvMapT in float.
 
@@ -138,15 +139,17 @@ void check(const UvMapT<T>& map) {
 /// A chessboard of `columns` by `rows` squares per repetition.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
-    static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
-    Map map{};                                   ///< Maps a point to (u, v).
+    /// Whether the map uses (u, v) of the shape.
+    static constexpr bool uses_uv = UsesUv<Map>;
+    Map map{};            ///< Maps a point to (u, v).
     RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
     RgbT<T> odd{T(0.1)};  ///< The colour of the squares beside that one.
     int columns = 2;      ///< The number of squares from u = 0 to 1; even.
     int rows = 2;         ///< The number of squares from v = 0 to 1; even.
 };
-using Checker = CheckerT<float>;                        ///< On a plane, in float.
-using GlobeChecker = CheckerT<float, GlobeMapT<float>>; ///< On a globe, in float.
+using Checker = CheckerT<float>; ///< A checker on a plane, in float.
+using GlobeChecker =
+    CheckerT<float, GlobeMapT<float>>; ///< A checker on a globe, in float.
 
 /// The colour of a checker at a point.
 template <std::floating_point T, typename Map>
@@ -191,13 +194,16 @@ enum class PictureFilter : std::uint8_t {
 /// (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
-    static constexpr bool uses_uv = UsesUv<Map>; ///< As the map declares it.
+    /// Whether the map uses (u, v) of the shape.
+    static constexpr bool uses_uv = UsesUv<Map>;
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
-    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.
-    PictureFilter filter = PictureFilter::bilinear; ///< Between pixels.
+    /// What the picture shows beyond its border.
+    PictureWrap wrap = PictureWrap::repeat;
+    /// How a colour between pixel centres is found.
+    PictureFilter filter = PictureFilter::bilinear;
 };
-using PictureTexture = PictureTextureT<float>; ///< On a plane, in float.
+using PictureTexture = PictureTextureT<float>; ///< A picture on a plane, in float.
 /// A picture in the coordinates of the shape, in float.
 using UvPicture = PictureTextureT<float, UvMapT<float>>;
 

@@ -18,13 +18,14 @@ namespace ljus {
 /// The photons of one kind.
 struct PhotonCount {
     std::uint64_t photons = 0; ///< Number of photons.
-    RgbT<double> flux{0}; ///< Sum of their flux, W, in double; for shadow photons the
-                          ///< flux that is missing.
+    /// Sum of the flux of these photons, in W; for shadow photons, the flux that is
+    /// missing.
+    RgbT<double> flux{0};
 };
 
 /// The photons of a map, by kind.
 struct PhotonCensus {
-    std::array<PhotonCount, 5> kinds; ///< Indexed by PhotonKind.
+    std::array<PhotonCount, 5> kinds; ///< The counts, indexed by PhotonKind.
 
     /// The photons of one kind.
     [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {

@@ -25,7 +25,7 @@ namespace ljus {
 /// \param classes   Classes made by light_path_expression(). A photon map reports one
 ///                  term for many paths, such as "DS+L"; the term counts as the
 ///                  shortest of them, see ExpressionLog.
-/// \return One mean per class, W/(m^2 sr), the same for any number of threads.
+/// \return One mean per class, in W/(m^2 sr), the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1.
 /// \cost One picture, and a few bit operations per letter of a path and class.
 /// \report{Section 2}

@@ -36,7 +36,8 @@ struct PathSum {
 /// The contributions to a pixel.
 template <std::floating_point T>
 struct ExplainedPixelT {
-    RgbT<T> radiance{T(0)};              ///< The same as in render(), to the last bit.
+    /// The radiance of the pixel, the same as in render() to the last bit.
+    RgbT<T> radiance{T(0)};
     std::vector<detail::PathSum> sums{}; ///< Contributions, brightest first; their sum
                                          ///< is the radiance.
     std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.

@@ -97,10 +97,10 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The relative mean square error of a picture without its worst pixels. These are the
-/// pixels whose error, as a mean over the channels, is largest; `dropped`, in [0, 1),
-/// is their fraction of all pixels. Without the worst 1 % the metric leaves out most
-/// fireflies. *Trap*: the metric favours a method that puts much light into few pixels.
-/// State it beside rel_mse(), never in its place.
+/// pixels whose error, as a mean over the channels, is largest. Their fraction is
+/// `dropped`, in [0, 1). Without the worst 1 %, fireflies hardly influence the metric.
+/// *Trap*: the metric favours a method that puts much light into few pixels. State it
+/// beside rel_mse(), never in its place.
 /// \return Dimensionless, at most rel_mse().
 /// \throws std::invalid_argument  as rel_mse(), or for `dropped`.
 template <std::floating_point T, std::floating_point U>

@@ -240,7 +240,7 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
 }
 
 /// A remark about objects that lose light at their edges, as edge_loss() has found.
-/// \return Empty if little is lost, or with a line feed.
+/// \return A line with a line feed; empty if little is lost.
 [[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
     if (!(lost > 0.2)) return {};
     return join(

@@ -27,8 +27,8 @@
 namespace ljus {
 
 /// \defgroup exr EXR
-/// \brief Optional (OpenEXR 3.1 or later): the file format of the film industry. One
-/// file can hold a picture and its layers. A program links OpenEXRCore, with
+/// \brief The file format of the film industry. One file can hold a picture and its
+/// layers. This header needs OpenEXR 3.1 or later. A program links OpenEXRCore, with
 /// -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
 /// \{
 

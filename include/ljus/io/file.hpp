@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file.hpp
-/// \brief Reads files up to a limit of size.
+/// \brief Reads files, and refuses those that are too large.
 
 #include <algorithm>
 #include <cerrno>
@@ -80,9 +80,9 @@ class FilesRead {
 public:
     /// A file that the thread has tried to read.
     struct File {
-        std::string path;       ///< The path as it was passed to load_file().
-        std::uint64_t hash = 0; ///< FNV-1a hash of its bytes; 0 if it could not be
-                                ///< read.
+        std::string path; ///< The path as it was passed to load_file().
+        /// FNV-1a hash of the file's bytes; 0 if the file could not be read.
+        std::uint64_t hash = 0;
     };
 
     FilesRead() { current() = this; }

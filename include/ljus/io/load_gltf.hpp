@@ -14,9 +14,9 @@ namespace ljus {
 /// \addtogroup load_obj
 /// \{
 
-/// Reads the meshes, cameras and lights of a glTF 2.0 file, .gltf or .glb. Optional
-/// (nlohmann-json). The nodes of the file's scene place the meshes. All faces of one
-/// material form one mesh.
+/// Reads the meshes, cameras and lights of a glTF 2.0 file, .gltf or .glb, by means of
+/// the package nlohmann-json. The nodes of the file's scene place the meshes. All faces
+/// of one material form one mesh.
 ///
 /// A material with a metallicFactor of 0.5 or more is a metal, with the colour and
 /// roughness of the file; a roughness below 0.01 becomes 0. A metallicRoughnessTexture
@@ -26,7 +26,7 @@ namespace ljus {
 /// KHR_materials_unlit.
 ///
 /// The emissiveFactor, times the strength of KHR_materials_emissive_strength, is used
-/// as radiance, W/(m^2 sr). A material with an emissiveTexture does not glow.
+/// as radiance, in W/(m^2 sr). A material with an emissiveTexture does not glow.
 ///
 /// All pictures of a material are looked up like its baseColorTexture, by its sampler
 /// and its KHR_texture_transform. With alphaMode MASK, the alpha of that picture cuts
@@ -46,7 +46,7 @@ namespace ljus {
 /// \throws std::runtime_error  if the file breaks the format or requires an unknown
 ///         extension, with one sentence: "a.gltf: accessors[2] has 36 elements of 12
 ///         bytes, which do not fit into the 288 bytes of its view."; or as read_obj().
-/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+/// \throws std::invalid_argument  unless the scale is finite and above 0.
 /// \cost Linear in the size of the files and the number of triangles, at most 2^23.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_gltf(Bytes bytes, const std::string& file,

@@ -24,11 +24,13 @@ namespace ljus {
 
 /// The content of an IES file.
 struct IesLamp {
-    IntensityTable table{}; ///< Intensities in all directions, cd, multiplied by the
-                            ///< multiplier and the ballast factors of the file.
-    double lumens = 0;      ///< Rated flux of all lamps in the luminaire, lm; -1 if the
-                            ///< file does not give it.
-    double watts = 0;       ///< Electric power of the luminaire, W.
+    /// Intensities in cd, in all directions. They include the multiplier and the
+    /// ballast factors of the file.
+    IntensityTable table{};
+    /// Rated flux of all lamps in the luminaire, in lm; -1 if the file does not give
+    /// the flux.
+    double lumens = 0;
+    double watts = 0; ///< Electric power of the luminaire, in W.
 };
 
 namespace detail {
@@ -98,9 +100,9 @@ struct IesReader {
 
 /// The intensities of a file: for each horizontal angle, those of all vertical angles.
 struct IesGrid {
-    std::vector<double> horizontal{}; ///< Horizontal angles, degrees.
-    std::vector<double> vertical{};   ///< Vertical angles, degrees.
-    std::vector<double> candela{};    ///< Intensities, cd.
+    std::vector<double> horizontal{}; ///< Horizontal angles in degrees.
+    std::vector<double> vertical{};   ///< Vertical angles in degrees.
+    std::vector<double> candela{};    ///< Intensities in cd.
 
     /// Appends a column of another grid, which has the same vertical angles.
     /// \param angle  The horizontal angle that the column gets here.

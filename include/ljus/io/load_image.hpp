@@ -101,8 +101,8 @@
 namespace ljus {
 
 /// \defgroup load_image Loading pictures
-/// \brief Optional (stb_image). Only PNG, JPEG and BMP are read, because damaged files
-/// of rare formats are more likely to harm their readers.
+/// \brief Loading needs the package stb_image. Only PNG, JPEG and BMP are read, because
+/// damaged files of rare formats are more likely to harm their readers.
 /// \{
 
 /// What is read from a picture.

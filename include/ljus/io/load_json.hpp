@@ -17,7 +17,8 @@
 namespace ljus {
 
 /// \defgroup load_json Scene files
-/// \brief Optional (nlohmann-json): a scene, its camera and the size of its picture.
+/// \brief Scene files in JSON: a scene, its camera and the size of its picture. Loading
+/// them needs the package nlohmann-json.
 ///
 ///     {"name": "a ball", "image": {"width": 200, "height": 200},
 ///      "camera": {"position": [0, 1, 4], "look_at": [0, 1, 0], "up": [0, 1, 0],

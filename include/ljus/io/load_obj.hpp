@@ -420,7 +420,7 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
 ///         cannot be made: "box.obj: no face of the file can be used; the first
 ///         problem: line 7: 12 faces refer to a vertex that does not exist; ..."
-/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+/// \throws std::invalid_argument  unless the scale is finite and above 0.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_obj(std::string_view text, const std::string& file,
                                       const MeshFileSettings& settings = {}) {

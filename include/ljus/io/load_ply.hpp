@@ -341,7 +341,7 @@ private:
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().
-/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+/// \throws std::invalid_argument  unless the scale is finite and above 0.
 /// \cost Time and memory linear in the size of the file.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_ply(Bytes bytes, const std::string& file,

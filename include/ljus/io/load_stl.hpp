@@ -142,7 +142,7 @@ struct StlReader {
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().
-/// \throws std::invalid_argument  for a scale that is not finite and above 0.
+/// \throws std::invalid_argument  unless the scale is finite and above 0.
 /// \cost Time and memory linear in the size of the file.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_stl(Bytes bytes, const std::string& file,

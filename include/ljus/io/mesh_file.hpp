@@ -57,26 +57,29 @@ struct MeshImage {
 
 /// A material as a mesh file describes it.
 struct MeshMaterial {
-    std::string name{};      ///< Name in the file; empty for faces without a material.
-    glm::dvec3 diffuse{0.5}; ///< Kd, in [0, 1]; 1 if there is a picture and no Kd
-                             ///< above 0. In glTF the base colour.
-    glm::dvec3 specular{0};  ///< Ks, in [0, 1]; in glTF the base colour of a metal.
-    glm::dvec3 emission{0};  ///< Ke, W/(m^2 sr), at least 0.
-    double roughness = 0;    ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
-    double index = 1.5;      ///< Index of refraction Ni, within [0.001, 1000].
-    /// Opacity d, or 1 - Tr; 0 is clear. A material with a picture and a Tr of 1 is
-    /// taken to be opaque.
+    std::string name{}; ///< Name in the file; empty for faces without a material.
+    /// Diffuse colour Kd, in [0, 1]; 1 if there is a picture and no Kd above 0. In glTF
+    /// it is the base colour.
+    glm::dvec3 diffuse{0.5};
+    /// Specular colour Ks, in [0, 1]; in glTF the base colour of a metal.
+    glm::dvec3 specular{0};
+    glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0.
+    double roughness = 0;   ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
+    double index = 1.5;     ///< Index of refraction Ni, within [0.001, 1000].
+    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
+    /// for opaque.
     double dissolve = 1;
-    /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. They are not
-    /// glass if Ni is 1, since some programs write them for every material.
+    /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. These four
+    /// are not glass if Ni is 1, because some programs write them for every material.
     int illumination = 2;
     MeshImage picture{}; ///< A picture of colours, which are multiplied by `diffuse`.
     MeshImage mask{};    ///< A picture of alpha, which cuts holes; see Holes.
     MeshImage normals{}; ///< A picture of normals; see NormalMapT.
-    bool mask_is_alpha = true; ///< Whether `mask` is the alpha of its picture; false:
-                               ///< red if that picture has no alpha.
+    /// If true, `mask` is the alpha of its picture. If false, the red channel of a
+    /// picture without alpha takes its place.
+    bool mask_is_alpha = true;
     double cutoff = 0.5;    ///< There is a hole where alpha is below this; at least 0.
-    UvMapT<double> map{};   ///< How all pictures of the material lie on it.
+    UvMapT<double> map{};   ///< How the pictures lie on the surface.
     PictureWrap wrap{};     ///< What the pictures show beyond their borders.
     PictureFilter filter{}; ///< How the pictures are filtered between pixels.
 
@@ -117,7 +120,7 @@ struct LoadedMeshT {
     /// normals.
     std::map<std::string, ImageT<T>> pictures{};
     std::vector<MeshCameraT<T>> cameras{}; ///< Cameras of a glTF file, in the order of
-                                           ///< its nodes.
+                                           ///< the nodes.
     std::vector<PointLightT<T>> points{};  ///< Point lights of a glTF file.
     std::vector<SpotLightT<T>> spots{};    ///< Spot lights of a glTF file.
     std::vector<SunLightT<T>> suns{};      ///< Directional lights of a glTF file.
@@ -254,7 +257,7 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
 /// \param scene     A scene that lists Mesh.
 /// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
 /// \param material  The number that Scene::add() returned for the material.
-/// \param radiance  Radiance that each mesh emits, W/(m^2 sr).
+/// \param radiance  Radiance that each mesh emits, in W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
                 const RgbT<T>& radiance = RgbT<T>{0}) {

@@ -61,16 +61,18 @@ struct MeshCount {
 
 /// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
-    long long vertices = 0;    ///< Positions: lines of an OBJ file that begin with v.
-    long long normals = 0;     ///< Normals: lines that begin with vn.
-    long long uvs = 0;         ///< Texture coordinates: lines that begin with vt.
-    long long objects = 0;     ///< Objects: lines that begin with o.
-    long long groups = 0;      ///< Groups: lines that begin with g.
-    long long faces = 0;       ///< Faces that are used.
-    long long polygons = 0;    ///< Faces of more than three corners, which are cut.
-    long long flat_faces = 0;  ///< Faces whose normals are missing or not used.
-    long long no_uv_faces = 0; ///< Faces without usable texture coordinates.
-    long long unused = 0;      ///< Vertices of no triangle.
+    long long vertices = 0; ///< Number of positions: the lines v of an OBJ file.
+    long long normals = 0;  ///< Number of normals: the lines vn.
+    long long uvs = 0;      ///< Number of texture coordinates: the lines vt.
+    long long objects = 0;  ///< Number of objects: the lines o.
+    long long groups = 0;   ///< Number of groups: the lines g.
+    long long faces = 0;    ///< Number of faces that are used.
+    /// Number of faces of more than three corners, which are cut.
+    long long polygons = 0;
+    /// Number of faces whose normals are missing or not used.
+    long long flat_faces = 0;
+    long long no_uv_faces = 0; ///< Number of faces without usable texture coordinates.
+    long long unused = 0;      ///< Number of vertices that no triangle has.
     bool closed = false; ///< Whether each edge has two faces, which are wound alike.
     double volume = 0; ///< Signed volume of a closed mesh; below 0 if it is inside out.
 };
@@ -80,7 +82,8 @@ struct MeshReport {
     /// The unit of the places in `counts`: a line of a text, an element of a PLY file,
     /// or a triangle of an STL or glTF file.
     const char* unit = "line";
-    std::array<MeshCount, detail::mesh_troubles> counts{}; ///< Indexed by MeshTrouble.
+    /// The counts, indexed by MeshTrouble.
+    std::array<MeshCount, detail::mesh_troubles> counts{};
     /// One sentence for each further problem, for example of a material file.
     std::vector<std::string> notes{};
     MeshContent content{}; ///< Counts of all that was read.

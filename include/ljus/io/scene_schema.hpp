@@ -15,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup scene_schema The schema of scene files
-/// \brief Optional (nlohmann-json): the rules of load_json() in a form that editors
-/// understand. Page: \ref ch_scene_files.
+/// \brief The rules of load_json() in a form that editors understand. The schema needs
+/// the package nlohmann-json. Page: \ref ch_scene_files.
 /// \{
 
 namespace detail {

@@ -16,11 +16,12 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};          ///< Emitted radiance, W/(m^2 sr).
-    Vec3T<T> normal{T(0)};           ///< Unit normal of a flat shape, otherwise 0.
-    T area = T(0);                   ///< In squared scene units.
-    bool inside_out = false;         ///< True if it emits opposite to the normal.
-    std::vector<double> area_sums{}; ///< area_sums() of a shape that has this function.
+    RgbT<T> radiance{T(0)};  ///< Emitted radiance in W/(m^2 sr).
+    Vec3T<T> normal{T(0)};   ///< Unit normal of a flat shape, otherwise 0.
+    T area = T(0);           ///< The area, in squared scene units.
+    bool inside_out = false; ///< Whether the lamp emits against the normal.
+    /// The result of area_sums(), if the shape has this function.
+    std::vector<double> area_sums{};
 };
 
 /// A lamp: a shape that emits uniform radiance on the side of its normal or, inside
@@ -29,7 +30,7 @@ template <Shape S>
 struct AreaLightT {
     using Scalar = ScalarOf<S>; ///< The precision of its numbers.
     const S& shape;             ///< The shape, which may move.
-    const LampT<Scalar>& lamp;  ///< Precomputed data.
+    const LampT<Scalar>& lamp;  ///< The precomputed data of the lamp.
 };
 
 namespace detail {
@@ -155,7 +156,7 @@ requires detail::is_lamp<L>
     return {point.normal, T(1)};
 }
 
-/// The form factor from a point with a unit normal to the lamp.
+/// The form factor to the lamp from a point of a surface with the given unit normal.
 /// \return In [0, 1]; nothing if the shape has no closed form.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,

@@ -41,11 +41,14 @@ namespace ljus {
 template <std::floating_point T>
 struct EnvironmentLightT {
     using Scalar = T; ///< The precision of its numbers.
-    /// Radiance, W/(m^2 sr), in any width and height. One pixel at least is not black.
+    /// The radiance in W/(m^2 sr). The picture may have any width and height, and one
+    /// pixel at least must not be black.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
     T strength = T(1); ///< Factor of all radiance, above 0.
     T rotation_degrees =
-        T(0); ///< Turns the sky about +y, counter-clockwise from above.
+        /// Rotation of the sky about +y in degrees, counter-clockwise as seen from
+        /// above.
+        T(0);
 };
 using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in float.
 
@@ -53,10 +56,10 @@ using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in flo
 template <std::floating_point T>
 struct EnvironmentInSceneT {
     using Scalar = T;              ///< The precision of its numbers.
-    ImageT<T> picture{};           ///< Radiance times strength, W/(m^2 sr).
+    ImageT<T> picture{};           ///< Radiance times strength, in W/(m^2 sr).
     PiecewiseConstant2D density{}; ///< Brightness times solid angle of each pixel.
-    RgbT<T> sum{T(0)};             ///< The integral of the radiance, W/m^2.
-    T turn = T(0);                 ///< The rotation as a part of a full turn.
+    RgbT<T> sum{T(0)};             ///< The integral of the radiance, in W/m^2.
+    T turn = T(0);                 ///< The rotation, in whole turns.
     SphereT<T> around{};           ///< The sphere around the scene.
 };
 
@@ -87,9 +90,9 @@ template <std::floating_point T>
 /// The picture of a sky with a gradient, for an EnvironmentLightT. Above the horizon
 /// the radiance is linear in the sine of the elevation. Below the horizon it is that of
 /// the ground.
-/// \param horizon  Radiance at the horizon, W/(m^2 sr).
-/// \param zenith   Radiance straight up, W/(m^2 sr).
-/// \param ground   Radiance below the horizon, W/(m^2 sr).
+/// \param horizon  Radiance at the horizon, in W/(m^2 sr).
+/// \param zenith   Radiance straight up, in W/(m^2 sr).
+/// \param ground   Radiance below the horizon, in W/(m^2 sr).
 /// \return One column of 256 pixels. Each has the mean radiance of its directions.
 template <std::floating_point T>
 [[nodiscard]] ImageT<T> gradient_sky(const RgbT<T>& horizon, const RgbT<T>& zenith,
@@ -115,9 +118,9 @@ template <std::floating_point T>
 /// \{
 
 /// Checks an environment.
-/// \throws std::invalid_argument  if the strength is not finite and above 0; if the
-///         rotation is not finite; or if the picture is empty, is black in every pixel,
-///         or has a value that is negative or not finite.
+/// \throws std::invalid_argument  if the strength is not finite or not above 0; if
+///         the rotation is not finite; or if the picture is empty, is black in every
+///         pixel, or has a value that is negative or not finite.
 template <std::floating_point T>
 void check(const EnvironmentLightT<T>& light) {
     require_positive("environment light.strength", light.strength);
@@ -163,7 +166,7 @@ namespace detail {
 template <std::floating_point T>
 struct SkyDirectionT {
     Vec3T<T> wi{T(0)};      ///< Unit direction towards the sky.
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
     T pdf = T(0);           ///< Density of `wi`, per steradian.
 };
 

@@ -60,10 +60,11 @@ struct IntensityTable {
 ///                                .position{0, 2.4f, 0}});
 template <std::floating_point T>
 struct GoniometricLightT {
-    using Scalar = T;             ///< The precision of its numbers.
-    IntensityTable table{};       ///< The intensities.
-    Vec3T<T> position{T(0)};      ///< In scene units.
-    Vec3T<T> direction{0, -1, 0}; ///< Axis along which it shines; any length but 0.
+    using Scalar = T;        ///< The precision of its numbers.
+    IntensityTable table{};  ///< The intensities.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
+    /// Axis along which the lamp shines; any length but 0.
+    Vec3T<T> direction{0, -1, 0};
     /// Determines how the lamp is turned about its direction: a vector towards
     /// horizontal angle 0 (type C) or towards vertical angle 90 (types B and A). It
     /// need not be perpendicular to the direction, but must not be parallel to it.
@@ -78,8 +79,8 @@ using GoniometricLight = GoniometricLightT<float>; ///< GoniometricLightT in flo
 template <std::floating_point T>
 struct GoniometricInSceneT {
     using Scalar = T;        ///< The precision of its numbers.
-    Vec3T<T> position{T(0)}; ///< In scene units.
-    /// The normal points to the pole, and the tangent in the direction of azimuth 0.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
+    /// The frame of the angles: the normal is the pole, the tangent is azimuth 0.
     FrameT<T> frame{};
     std::vector<double> polar{};   ///< Polar angles in radians.
     std::vector<double> azimuth{}; ///< Azimuths in radians.
@@ -87,7 +88,7 @@ struct GoniometricInSceneT {
     /// The flux between neighbouring angles, in lm. A row is an interval of polar
     /// angles.
     PiecewiseConstant2D cells{};
-    RgbT<T> watts_per_lumen{T(0)}; ///< As in a GoniometricLightT.
+    RgbT<T> watts_per_lumen{T(0)}; ///< Watts per lumen, as in a GoniometricLightT.
     detail::ConeT<T> cone{};       ///< A cone around all directions of emission.
 };
 
@@ -143,7 +144,7 @@ namespace detail {
 /// A position between two neighbouring angles of a table.
 struct BetweenAngles {
     std::size_t index = 0; ///< The index of the smaller angle.
-    double part = 0;       ///< From 0 at the smaller angle to 1 at the larger one.
+    double part = 0;       ///< The position: 0 at the smaller angle, 1 at the larger.
 };
 
 /// The position of an angle among angles in increasing order.
@@ -157,10 +158,11 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
-/// The intensities at the four corners of a cell of the table, in cd.
+/// The intensities at the four corners of a cell of the table, in cd. Each array holds
+/// those at the smaller and at the larger azimuth.
 struct CellCorners {
-    double low[2] = {};  ///< At the smaller polar angle, for both azimuths.
-    double high[2] = {}; ///< At the larger polar angle, for both azimuths.
+    double low[2] = {};  ///< Intensities at the smaller polar angle.
+    double high[2] = {}; ///< Intensities at the larger polar angle.
 };
 
 /// The intensities at the corners of a cell.

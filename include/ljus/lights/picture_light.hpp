@@ -20,20 +20,19 @@ namespace ljus {
 /// \addtogroup picture_lamp
 /// \{
 
-/// A textured lamp as a World stores it. A World makes such a lamp from an object that
-/// has a radiance and a material with a picture; see ShowsPicture. The points of the
-/// lamp are sampled in proportion to the brightness of their pixels.
+/// A textured lamp as a World stores it. A World makes it from an object that emits and
+/// has a material of the concept ShowsPicture. The points of the lamp are sampled in
+/// proportion to the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
     using Scalar = T;            ///< The precision of its numbers.
     QuadT<T> frame{};            ///< The quad, or the square around the disc.
     Vec3T<T> normal{T(0)};       ///< Unit normal on the side that shines.
-    bool round = false;          ///< True for a disc: the frame's corners do not shine.
-    ImageT<T> picture{};         ///< Radiance, W/(m^2 sr).
-    PiecewiseConstant2D cells{}; ///< The brightness of each pixel. It is 0 for pixels
-                                 ///< of the frame that lie outside a round lamp.
-    double pixel_area = 0;       ///< In squared scene units.
-    RgbT<T> flux{T(0)};          ///< W.
+    bool round = false;          ///< True for a disc: only the circle shines.
+    ImageT<T> picture{};         ///< The radiance in W/(m^2 sr).
+    PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside a disc.
+    double pixel_area = 0;       ///< The area of a pixel, in squared scene units.
+    RgbT<T> flux{T(0)};          ///< The flux in W.
 };
 
 namespace detail {
@@ -120,7 +119,7 @@ make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radi
     }
 }
 
-/// The radiance at a point of the picture, W/(m^2 sr), without interpolation between
+/// The radiance at a point of the picture, in W/(m^2 sr), without interpolation between
 /// pixels.
 /// \param light  The lamp.
 /// \param uv     Point in [0, 1]^2; (0, 0) is the lower left corner of the picture.
@@ -158,9 +157,9 @@ namespace detail {
 /// A point of a textured lamp, and its radiance.
 template <std::floating_point T>
 struct PicturePointT {
-    SurfacePointT<T> point{}; ///< Its normal points to the side that shines.
+    SurfacePointT<T> point{}; ///< The point; the normal is on the side that shines.
     Vec2T<T> uv{T(0)};        ///< Coordinates in the picture.
-    const RgbT<T>& radiance;  ///< W/(m^2 sr).
+    const RgbT<T>& radiance;  ///< The radiance in W/(m^2 sr).
 };
 
 /// Samples a point of the frame with the density pdf_of_point().
@@ -195,7 +194,7 @@ template <std::floating_point T>
 
 /// Samples a point of the lamp for a shadow ray.
 /// \return The sample. Nothing if `from` lies behind the lamp, or if the sampled point
-///         lies outside a round lamp, which can happen in a pixel on its edge.
+///         lies outside the disc, which happens in pixels on the disc's edge.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,

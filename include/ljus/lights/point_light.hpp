@@ -14,8 +14,8 @@ namespace ljus {
 template <std::floating_point T>
 struct PointLightT {
     using Scalar = T;        ///< The precision of its numbers.
-    Vec3T<T> position{T(0)}; ///< In scene units.
-    RgbT<T> intensity{T(1)}; ///< W/sr, equal in all directions.
+    Vec3T<T> position{T(0)}; ///< The position, in scene units.
+    RgbT<T> intensity{T(1)}; ///< The intensity in W/sr, equal in all directions.
 };
 using PointLight = PointLightT<float>; ///< PointLightT in float.
 

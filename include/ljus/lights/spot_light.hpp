@@ -15,12 +15,12 @@ namespace ljus {
 template <std::floating_point T>
 struct SpotLightT {
     using Scalar = T;             ///< The precision of its numbers.
-    Vec3T<T> position{T(0)};      ///< In scene units.
+    Vec3T<T> position{T(0)};      ///< The position, in scene units.
     Vec3T<T> direction{0, -1, 0}; ///< Axis of the cone; any length but 0.
-    RgbT<T> intensity{T(1)};      ///< W/sr within the inner cone.
-    /// The inner angle, between the axis and the edge of the constant part.
+    RgbT<T> intensity{T(1)};      ///< The intensity within the inner cone, in W/sr.
+    /// The inner angle to the axis in degrees, from 0 to the outer angle.
     T inner_degrees = T(20);
-    /// The outer angle, between the axis and the edge of the cone; in [0.001, 180].
+    /// The outer angle to the axis in degrees, from 0.001 to 180.
     T outer_degrees = T(30);
 };
 using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
@@ -29,9 +29,9 @@ using SpotLight = SpotLightT<float>; ///< SpotLightT in float.
 template <std::floating_point T>
 struct SpotInSceneT {
     using Scalar = T;         ///< The precision of its numbers.
-    Vec3T<T> position{T(0)};  ///< In scene units.
+    Vec3T<T> position{T(0)};  ///< The position, in scene units.
     Vec3T<T> direction{T(0)}; ///< Axis of the cone; unit vector.
-    RgbT<T> intensity{T(0)};  ///< W/sr within the inner cone.
+    RgbT<T> intensity{T(0)};  ///< The intensity within the inner cone, in W/sr.
     T inner = T(0);           ///< 1 - cos of the inner angle.
     T outer = T(0);           ///< 1 - cos of the outer angle.
 };

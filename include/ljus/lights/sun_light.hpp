@@ -16,7 +16,7 @@ template <std::floating_point T>
 struct SunLightT {
     using Scalar = T;             ///< The precision of its numbers.
     Vec3T<T> direction{0, -1, 0}; ///< Direction of travel; any length but 0.
-    RgbT<T> irradiance{T(1)};     ///< W/m^2 on a perpendicular surface.
+    RgbT<T> irradiance{T(1)}; ///< The irradiance of a perpendicular surface, in W/m^2.
 };
 using SunLight = SunLightT<float>; ///< SunLightT in float.
 
@@ -25,7 +25,7 @@ template <std::floating_point T>
 struct SunInSceneT {
     using Scalar = T;         ///< The precision of its numbers.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
-    RgbT<T> irradiance{T(0)}; ///< W/m^2 on a perpendicular surface.
+    RgbT<T> irradiance{T(0)}; ///< The irradiance of a perpendicular surface, in W/m^2.
     SphereT<T> around{};      ///< The sphere around the scene.
 };
 

@@ -65,7 +65,7 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
 /// Adds multiple scattering to a rough mirror.
 /// \return The material. With roughness 0 it scatters like the mirror itself.
 /// \throws std::invalid_argument  as check(first).
-/// \cost bake_energy_loss(): about 50 ms.
+/// \cost That of bake_energy_loss(): about 50 ms.
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
@@ -81,7 +81,7 @@ template <std::floating_point T, typename F>
 
 /// The BRDF: the sum of the lobes of one reflection and of multiple scattering.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
-/// \cost evaluate() of GlossyT, and lost_at() twice.
+/// \cost That of evaluate() of GlossyT, and two calls of lost_at().
 /// \cite kulla2017
 // [full evaluate]
 template <std::floating_point T, typename F>
@@ -132,7 +132,7 @@ template <std::floating_point T, typename F>
 /// scattering. u.z chooses the lobe.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
 ///         into the surface.
-/// \cost Up to twice sample() of GlossyT.
+/// \cost Up to twice that of sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,

@@ -37,7 +37,7 @@ inline constexpr bool is_holes<Holes<Texture>> = true;
 } // namespace detail
 
 /// Whether a point lies in a hole of the material or of its base.
-/// \cost color_at() of the mask.
+/// \cost That of color_at() of the mask.
 template <typename Base, typename Texture, std::floating_point T>
 requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
     [[nodiscard]] bool is_open(const Textured<Base, Texture>& cut,

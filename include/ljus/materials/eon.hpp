@@ -27,7 +27,7 @@ template <std::floating_point T>
 struct EonT {
     using Scalar = T;       ///< The precision of its numbers.
     RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
-    T roughness = T(0.5);   ///< In [0, 1]; 0 is a Lambertian surface.
+    T roughness = T(0.5);   ///< The roughness in [0, 1]; 0 is a Lambertian surface.
 };
 using Eon = EonT<float>; ///< EonT in float.
 
@@ -84,10 +84,10 @@ template <std::floating_point T>
 /// \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
-    T a;            ///< First row of M.
-    T b;            ///< First row of M.
-    T c;            ///< Second row of M.
-    T d;            ///< Third row of M, at most 0.
+    T a;            ///< The entry a of M.
+    T b;            ///< The entry b of M.
+    T c;            ///< The entry c of M.
+    T d;            ///< The entry d of M, at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
     T uniform;      ///< The probability of a uniform direction instead of the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.

@@ -28,12 +28,14 @@ namespace ljus {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct GlassT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
-    T index = T(1.5);                           ///< Index of refraction inside.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
+    T index = T(1.5); ///< Index of refraction inside.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
-    FresnelModel fresnel = FresnelModel::exact; ///< Exact or Schlick's approximation.
+    /// The formula for the reflectance: exact or approximate.
+    FresnelModel fresnel = FresnelModel::exact;
 };
 using Glass = GlassT<float>; ///< GlassT in float.
 
@@ -42,7 +44,7 @@ namespace detail {
 /// How a boundary divides light between reflection and refraction.
 template <std::floating_point T>
 struct GlassBoundaryT {
-    std::optional<Vec3T<T>> refracted{}; ///< Direction, if there is refraction.
+    std::optional<Vec3T<T>> refracted{}; ///< The refracted direction, if there is one.
     T reflectance = T(1);                ///< Fresnel's reflectance F, in [0, 1].
     T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
 };
@@ -131,9 +133,10 @@ void check(const GlassT<T>& glass) {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct ThinGlassT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
-    T index = T(1.5);                           ///< Index of refraction of the glass.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
+    T index = T(1.5); ///< Index of refraction of the glass.
     /// Transmittance of the glass between its boundaries, for one crossing at normal
     /// incidence; in [0, 1].
     RgbT<T> tint{T(1)};
@@ -144,8 +147,8 @@ namespace detail {
 
 template <std::floating_point T>
 struct PaneFractionsT {
-    RgbT<T> reflected;   ///< Fraction of the incident light.
-    RgbT<T> transmitted; ///< Fraction of the incident light; the rest is absorbed.
+    RgbT<T> reflected;   ///< Reflected fraction of the incident light.
+    RgbT<T> transmitted; ///< Transmitted fraction. The rest is absorbed.
 };
 
 /// The reflectance and the transmittance of a pane, with all reflections inside it.
@@ -160,7 +163,7 @@ struct PaneFractionsT {
 /// no interference, because a pane is thicker than the coherence length of light.
 /// \param cos_theta  Cosine between ray and normal outside, in [0, 1].
 /// \return Reflectance and transmittance. Without a tint their sum is 1.
-/// \cost fresnel() and one square root; three powers if there is a tint.
+/// \cost That of fresnel(), and one square root; three powers if there is a tint.
 // [pane]
 template <std::floating_point T>
 [[nodiscard]] PaneFractionsT<T> pane_fractions(const ThinGlassT<T>& pane,
@@ -201,7 +204,7 @@ template <std::floating_point T>
 /// \param which  The lobes to sample.
 /// \return The sample. Nothing if `wo` is parallel to the surface, or if `which` lacks
 ///         Lobes::specular.
-/// \cost pane_fractions().
+/// \cost That of pane_fractions().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

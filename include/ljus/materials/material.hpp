@@ -79,8 +79,8 @@ enum class Lobes : std::uint8_t {
 /// multiplied by n^2, because refraction narrows the cone of the light. The flux of a
 /// photon does not change \cite veach1997.
 enum class Transport : std::uint8_t {
-    radiance, ///< Paths from the camera.
-    flux,     ///< Photons.
+    radiance, ///< Radiance, on paths from the camera.
+    flux,     ///< Flux, on the paths of photons.
 };
 
 /// One scattered direction.

@@ -20,8 +20,9 @@ namespace ljus {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MirrorT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
     RgbT<T> reflectance{T(1)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
@@ -57,15 +58,16 @@ void check(const MirrorT<T>& mirror) {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
     ConductorIndexT<T> index = gold<T>; ///< Complex index of refraction, per channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.
 
 /// Returns the mirror direction. Its weight is the reflectance of the metal at the
 /// angle of `wo`.
-/// \cost Three times fresnel_conductor().
+/// \cost Three calls of fresnel_conductor().
 /// \report{Section 3.2.4, Eq. (4)}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

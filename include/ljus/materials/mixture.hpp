@@ -41,8 +41,8 @@ struct MixtureT {
     T transparency = T(0);    ///< Transmitted fraction of entering light, in [0, 1].
     T index = T(1.5);         ///< Index of refraction inside.
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
-    T emissivity = T(0);      ///< Emitted radiance over color, W/(m^2 sr), >= 0.
-    T sigma = T(0);           ///< Roughness of the matt lobe, radians; 0: Lambert.
+    T emissivity = T(0);      ///< Emitted radiance over color, in W/(m^2 sr), >= 0.
+    T sigma = T(0);           ///< Roughness of the matt lobe, in radians; 0: Lambert.
     RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
@@ -83,7 +83,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct LobeFractionsT {
     T diffuse; ///< The matt lobe, in its brightest channel.
-    T refract; ///< Refraction.
+    T refract; ///< The refracted light.
     T reflect; ///< The mirror and the reflection of the boundary.
     [[nodiscard]] constexpr T sum() const noexcept {
         return diffuse + refract + reflect;
@@ -140,7 +140,7 @@ template <std::floating_point T>
 /// lobe has three more factors: the colour over its brightest channel, 1 - F for `wi`,
 /// and oren_nayar_ratio().
 /// \return The sample. Its pdf is above 0 unless it is specular.
-/// \cost Fresnel once for `wo`, and for the matt lobe once for `wi`.
+/// \cost One call of fresnel() for `wo`; for the matt lobe, another one for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

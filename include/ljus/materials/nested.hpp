@@ -20,7 +20,7 @@ template <Material Base>
 requires Transparent<Base>
 struct Nested {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< See MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
     Base base{};                                   ///< The material.
     /// Where bodies overlap, the body with the highest priority fills the space. A
     /// material that is not Nested has priority 0.
@@ -71,7 +71,7 @@ absorption(const Nested<Base>& nested) noexcept {
     return absorption(nested.base);
 }
 
-/// The emitted radiance of the base, W/(m^2 sr).
+/// The emitted radiance of the base, in W/(m^2 sr).
 template <typename Base>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 emission(const Nested<Base>& nested) noexcept {

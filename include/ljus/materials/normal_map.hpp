@@ -31,7 +31,7 @@ using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 /// \param uv      From texture_coordinates().
 /// \return A normal of any length, with x along u, y along v and z outwards. It is
 ///         exactly (0, 0, 1) for the colour (0.5, 0.5, 1).
-/// \cost color_at() of the picture.
+/// \cost That of color_at() of the picture.
 template <typename Base, std::floating_point T>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, NormalMapT<T>>& mapped,
                                  const Vec2T<T>& uv) noexcept {

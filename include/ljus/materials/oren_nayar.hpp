@@ -28,7 +28,8 @@ template <std::floating_point T>
 struct OrenNayarT {
     using Scalar = T;       ///< The precision of its numbers.
     RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
-    T sigma = T(0.3); ///< Standard deviation of the slope angle, radians; 0: Lambert.
+    T sigma =
+        T(0.3); ///< Standard deviation of the slope angle, in radians; 0: Lambert.
 };
 using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
 

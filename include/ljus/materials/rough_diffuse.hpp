@@ -12,23 +12,26 @@ namespace ljus {
 /// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
 /// \{
 
-/// A formula that is called Oren-Nayar. The numbers are the largest fraction of the
+/// A formula that is called Oren-Nayar. Each comment gives the largest fraction of the
 /// light of a uniform sky that a white surface reflects, over all directions and
 /// roughnesses.
 enum class RoughModel : std::uint8_t {
-    as_printed, ///< The formula of the report's program; reflects up to 1.
-    full,       ///< Oren and Nayar's full model of 1994; reflects up to 1.05.
-    fujii,      ///< Fujii's first model; reflects up to 1.03.
-    fon         ///< Fujii's second model, roughness in [0, 1]; reflects up to 1.
+    /// The formula of the report's program. It reflects at most all of the light.
+    as_printed,
+    full,  ///< Oren and Nayar's full model of 1994; reflects up to 1.05 of the light.
+    fujii, ///< Fujii's first model; reflects up to 1.03 of the light.
+    /// Fujii's second model, with a roughness in [0, 1]. It reflects at most all of the
+    /// light.
+    fon
 };
 
 /// A two-sided matt surface by one of the models.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct RoughDiffuseT {
-    using Scalar = T;                   ///< The precision of its numbers.
-    RgbT<T> albedo{T(0.5)};             ///< Albedo of a facet, in [0, 1].
-    T sigma = T(0.3);                   ///< Radians; for `fon` a number in [0, 1].
+    using Scalar = T;       ///< The precision of its numbers.
+    RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
+    T sigma = T(0.3);       ///< The roughness in radians; for `fon` a number in [0, 1].
     RoughModel model = RoughModel::fon; ///< The formula.
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.

@@ -21,24 +21,27 @@ namespace ljus {
 
 /// The function that computes the colours of a film.
 enum class FilmColor : std::uint8_t {
-    table,             ///< The function look_up(), with a table.
-    three_wavelengths, ///< The function film_three().
-    preintegrated      ///< The function film_preintegrated().
+    table,             ///< Looked up in a table by look_up().
+    three_wavelengths, ///< Computed by film_three().
+    preintegrated      ///< Computed by film_preintegrated().
 };
 
 /// A soap film in air. Its thickness falls with the height z, as in films that hang
 /// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
 template <std::floating_point T>
 struct SoapFilmT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
     T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
-    T scale = T(0);       ///< h in scene units; 0: constant thickness.
+    T scale = T(0); ///< The h of the formula, in scene units; 0: constant thickness.
     Vec3T<T> level{T(0)}; ///< A point at height z = 0.
-    Vec3T<T> up{T(0), T(0), T(1)};              ///< Unit vector opposite to gravity.
+    /// The upward direction, against gravity; unit vector.
+    Vec3T<T> up{T(0), T(0), T(1)};
     FilmColor color = FilmColor::preintegrated; ///< How the colours are computed.
-    FilmTableT<T> table{}; ///< From bake_film_table(index), for FilmColor::table.
+    /// For FilmColor::table: the result of bake_film_table(index).
+    FilmTableT<T> table{};
 };
 using SoapFilm = SoapFilmT<float>; ///< SoapFilmT in float.
 
@@ -86,10 +89,11 @@ template <std::floating_point T>
 /// A film at one point, as a material of one thickness.
 template <std::floating_point T>
 struct FilmPointT {
-    using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
-    const SoapFilmT<T>& film;                   ///< The film.
-    T thickness;                                ///< Thickness at the point, in nm.
+    using Scalar = T; ///< The precision of its numbers.
+    /// All lobes are specular, see OnlySpecular.
+    static constexpr bool only_specular = true;
+    const SoapFilmT<T>& film; ///< The film.
+    T thickness;              ///< Thickness at the point, in nm.
 };
 
 /// Checks nothing, because the film has been checked.

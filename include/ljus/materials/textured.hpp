@@ -22,11 +22,11 @@ namespace ljus {
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< See MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
     /// True if the texture or the base uses uv.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
-    Base base{};       ///< The base; white, if the texture's colour is to be kept.
-    Texture texture{}; ///< Colours within [0, 1].
+    Base base{};       ///< The material; a white one keeps the texture's colours.
+    Texture texture{}; ///< The texture, with colours within [0, 1].
 };
 
 namespace detail {
@@ -51,7 +51,7 @@ colored(Base base, const RgbT<typename Base::Scalar>& color) noexcept {
 
 /// The material at a point: the base at that point, multiplied by the colour of the
 /// texture.
-/// \cost color_at() of the texture.
+/// \cost That of color_at() of the texture.
 // [at_point]
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] decltype(auto) at_point(const Textured<Base, Texture>& textured,

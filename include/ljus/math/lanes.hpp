@@ -67,7 +67,7 @@ using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
 /// Eight truth values: -1, with all bits set, for true, and 0 for false.
 struct alignas(32) LaneMask {
-    std::int32_t lane[lane_count]; ///< -1 or 0.
+    std::int32_t lane[lane_count]; ///< -1 for true, 0 for false.
 };
 
 /// Packs a mask into an integer with one byte per lane, for take_lane().

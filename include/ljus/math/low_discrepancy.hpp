@@ -151,8 +151,8 @@ namespace detail {
 
 } // namespace detail
 
-/// Moves the random numbers after the Sobol point to the start of a bounce. The
-/// dimensions of the Sobol point are used in the order of the draws, whatever the
+/// Moves `rest`, the random numbers that follow the Sobol point, to the start of a
+/// bounce. The dimensions of the Sobol point are used one after the other, whatever the
 /// bounce.
 constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept {
     start_bounce(stream.rest, bounce);

@@ -21,10 +21,11 @@ namespace ljus {
 /// Cumulative sums of the weights of a grid's cells, for sample_cell(). They are
 /// double, because one cell may weigh 1e9 times as much as its neighbours.
 struct PiecewiseConstant2D {
-    int width = 0;             ///< Cells per row.
-    int height = 0;            ///< Number of rows.
-    std::vector<double> rows;  ///< For each row: the weight of the rows up to it.
-    std::vector<double> cells; ///< For each cell: the weight of its row up to it.
+    int width = 0;            ///< Cells per row.
+    int height = 0;           ///< Number of rows.
+    std::vector<double> rows; ///< For each row, the weight of all rows up to this row.
+    /// For each cell, the weight of all cells of the row up to this cell.
+    std::vector<double> cells;
 };
 
 /// Computes the cumulative sums of a grid's weights.

@@ -30,7 +30,7 @@ namespace detail {
 /// the coefficients, or smaller by an even number \cite farouki2012.
 template <std::floating_point T, std::size_t N>
 struct BernsteinT {
-    std::array<T, N + 1> c{}; ///< c_0 to c_N.
+    std::array<T, N + 1> c{}; ///< The coefficients c_0 to c_N.
 };
 
 /// The binomial coefficients 1, N, ..., N, 1 of (a + b)^N.
@@ -84,9 +84,9 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between a and b, where p has opposite signs. A step is a step of Newton's
-/// method if it stays in the interval and is at most half as long as the last step.
-/// Otherwise it bisects the interval.
+/// The root between a and b, where p has opposite signs. The function makes steps of
+/// Newton's method. If such a step would leave the interval, or would be more than half
+/// as long as the last step, the interval is bisected instead.
 /// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]
@@ -115,7 +115,7 @@ template <std::floating_point T, std::size_t N>
 /// which have N + 1 ends. roots() finds at most one root per end.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
-    std::array<T, N + 1> at{}; ///< The first `count` are roots.
+    std::array<T, N + 1> at{}; ///< The roots: the first `count` elements.
     std::size_t count = 0;     ///< The number of roots.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }

@@ -22,7 +22,8 @@ struct EquiAngularT {
     SpanT<T> span{};  ///< The part of the ray.
     T nearest = T(0); ///< t of the point of the line that is nearest to the light.
     T away = T(1);    ///< Distance of this nearest point from the light.
-    T first = T(0);   ///< Angle from the nearest point to the start of the span, rad.
+    /// Angle from the nearest point to the start of the span, in radians.
+    T first = T(0);
     T opening = T(0); ///< Angle from the start to the end of the span, in radians.
 };
 

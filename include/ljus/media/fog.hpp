@@ -37,7 +37,7 @@ template <typename Region>
 struct Fog {
     /// The precision of its numbers.
     using Scalar = decltype(detail::precision_of(std::declval<const Region&>()));
-    Region region{};                    ///< The space that it fills, in scene units.
+    Region region{}; ///< The space that the fog fills, in scene units.
     RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
     RgbT<Scalar> scattering{Scalar(0)}; ///< Coefficient sigma_s, per scene unit.
     Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().
@@ -96,8 +96,8 @@ template <std::floating_point T>
 }
 
 /// Checks a spherical region.
-/// \throws std::invalid_argument  if the centre is not finite, or the radius is not
-///         finite and above 0.
+/// \throws std::invalid_argument  unless the centre is finite, and the radius is finite
+///         and above 0.
 template <std::floating_point T>
 void check_region(const SphereT<T>& sphere) {
     require_finite("fog.region.center", sphere.center);

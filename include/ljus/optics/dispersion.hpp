@@ -27,8 +27,9 @@ namespace ljus {
 /// \f[ n^2(\lambda) = 1 + \sum_i \frac{B_i \lambda^2}{\lambda^2 - C_i} \f]
 template <std::floating_point T>
 struct SellmeierT {
-    std::array<T, 4> b{}; ///< B: strengths of up to four resonances, no unit.
-    std::array<T, 4> c{}; ///< C: squares of the resonant wavelengths, in um^2.
+    std::array<T, 4> b{}; ///< B: strengths of up to four resonances, without a unit.
+    /// C: squared wavelengths of the resonances, in micrometres^2.
+    std::array<T, 4> c{};
 };
 using Sellmeier = SellmeierT<float>; ///< SellmeierT in float.
 
@@ -37,7 +38,7 @@ using Sellmeier = SellmeierT<float>; ///< SellmeierT in float.
 template <std::floating_point T>
 struct CauchyT {
     T a = T(1.5); ///< A: the index for long waves.
-    T b = T(0);   ///< B, in micrometres^2; 0 for no dispersion.
+    T b = T(0);   ///< B: the dispersion, in micrometres^2; 0 for none.
 };
 using Cauchy = CauchyT<float>; ///< CauchyT in float.
 

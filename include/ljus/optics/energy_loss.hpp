@@ -27,9 +27,9 @@ struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
     T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
-    std::array<T, cells + 1> below{}; ///< Fraction of the whole loss at smaller
-                                      ///< cosines; from 0 to 1.
-    T mean = T(0);                    ///< 1 minus the mean of E over the hemisphere.
+    /// The part of the whole loss that lies at smaller cosines, from 0 to 1.
+    std::array<T, cells + 1> below{};
+    T mean = T(0); ///< 1 minus the mean of E over the hemisphere.
 };
 
 /// The cosine at a position of the table, \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$. The
@@ -114,11 +114,12 @@ inline double energy_loss(double alpha, double mu) {
     return sum / (rows * columns);
 }
 
-/// Makes the table for one roughness. It is computed in double.
+/// Makes the table of the loss for one roughness. It is computed in double.
 /// \param alpha  Roughness: 0 for a mirror, otherwise in [1e-4, 1].
-/// \return The table. Its values are up to 4e-4 below the loss, so that interpolation
-///         adds no light. At the horizon they are less than 1e-5 above the loss.
-/// \cost 0.6 million visible normals: about 50 ms.
+/// \return The table. It is lowered so that interpolation adds no light: its values are
+///         at most 4e-4 below the loss. Only at the horizon can they be above the loss,
+///         by less than 1e-5.
+/// \cost Samples 0.6 million visible normals, in about 50 ms.
 template <std::floating_point T = float>
 [[nodiscard]] EnergyLossT<T> bake_energy_loss(T alpha) {
     EnergyLossT<T> loss{.alpha = alpha};

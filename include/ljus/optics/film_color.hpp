@@ -78,7 +78,7 @@ inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
 /// \param thickness  In nm, >= 0.
 /// \return The reflectance in [0, 1] for each channel. The fringes of a thick film do
 ///         not fade, although real fringes do.
-/// \cost Three times thin_film().
+/// \cost Three calls of thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
     const auto at = [&](T wavelength) {
@@ -134,7 +134,7 @@ template <std::floating_point T>
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
 /// \return The reflectance as linear sRGB. It may be outside the range of a screen.
-/// \cost Three times visible_swing().
+/// \cost Three calls of visible_swing().
 /// \cite belcour2017
 // [preintegrated]
 template <std::floating_point T>

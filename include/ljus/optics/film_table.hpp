@@ -22,10 +22,10 @@ namespace ljus {
 template <std::floating_point T>
 struct FilmTableT {
     T index = T(0);   ///< Index of the films; 0 if there is no table.
-    int cosines = 0;  ///< Columns, for cosines from 0 to 1.
-    int paths = 0;    ///< Rows, for paths from 0 to `longest`.
-    T longest = T(0); ///< Path in nm above which colours have faded.
-    /// The colours in [0, 1], row by row. The last row holds the means over all phases.
+    int cosines = 0;  ///< Number of columns, for cosines from 0 to 1.
+    int paths = 0;    ///< Number of rows, for optical paths from 0 to `longest`.
+    T longest = T(0); ///< The optical path above which colours have faded, in nm.
+    /// The colours, in [0, 1]: the rows of the table, then a row of means.
     std::vector<RgbT<T>> cells{};
     int greyed = 0; ///< Number of cells that into_gamut() has changed.
     T worst = T(0); ///< The most negative channel before into_gamut().
@@ -36,9 +36,10 @@ namespace detail {
 
 /// The resolution of a table.
 struct FilmTableSize {
-    int cosines = 65;      ///< At least 2.
-    int paths = 641;       ///< At least 2, not counting the row of the mean.
-    double longest = 4000; ///< Longest path, in nm.
+    int cosines = 65; ///< Number of cosines, at least 2.
+    /// Number of path lengths, at least 2, without the row of the mean.
+    int paths = 641;
+    double longest = 4000; ///< The longest optical path, in nm.
 };
 
 // Wavelengths evenly spaced over the visible range, in nm, and the eye's response to

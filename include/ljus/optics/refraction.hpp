@@ -18,7 +18,8 @@ namespace ljus {
 /// and n_2 the index of the medium that the ray enters. Snell's law multiplies P, the
 /// component of the direction D along the surface, by \f$ \eta \f$. The refracted
 /// direction T has unit length, which gives the cosine of the refracted ray's angle
-/// theta_2. theta_1 is the angle of the incoming ray, and N is the normal:
+/// theta_2. theta_1 is the angle of the incoming ray, and N is the normal; the sign is
+/// plus if N points to the side that the ray enters:
 ///
 /// \f[ T = \eta P \pm N \cos\theta_2, \qquad
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]

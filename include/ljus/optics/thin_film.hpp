@@ -14,7 +14,7 @@ namespace ljus {
 /// \brief The soap bubble of figure 4.
 ///
 /// A film has two surfaces, which both reflect light. The wave from the second surface
-/// is delayed against the wave from the first surface, and the two waves interfere.
+/// is delayed relative to that from the first surface, and the two waves interfere.
 /// \{
 
 namespace detail {

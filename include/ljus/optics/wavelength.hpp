@@ -16,11 +16,12 @@ namespace ljus {
 /// lines.
 /// \{
 template <std::floating_point T>
-inline constexpr T line_F = T(486.13); ///< Hydrogen, blue.
+inline constexpr T line_F = T(486.13); ///< The blue line of hydrogen, in nm.
 template <std::floating_point T>
-inline constexpr T line_d = T(587.56); ///< Helium, yellow; the line of a nominal index.
+/// The yellow line of helium, in nm; a nominal index is given at this line.
+inline constexpr T line_d = T(587.56);
 template <std::floating_point T>
-inline constexpr T line_C = T(656.27); ///< Hydrogen, red.
+inline constexpr T line_C = T(656.27); ///< The red line of hydrogen, in nm.
 /// \}
 
 // Defined in dispersion.hpp, which only programs with a dispersive material include.

@@ -24,10 +24,10 @@ enum class DirectLight : std::uint8_t {
     sampled, ///< Shadow rays alone.
     /// On a Lambertian surface, the closed form of a lamp's unoccluded light, times the
     /// fraction of it that shadow rays find visible. A light without a closed form is
-    /// sampled by shadow rays alone. On other surfaces the same as `mis`.
+    /// sampled by shadow rays alone. On other surfaces the method is the same as `mis`.
     analytic,
     /// Shadow rays, and a ray sampled by the material, with the weights of multiple
-    /// importance sampling. Best for lamps as large as walls.
+    /// importance sampling. This method is the best for lamps as large as walls.
     mis
 };
 
@@ -36,8 +36,9 @@ namespace detail {
 /// A lamp whose form factor at a vertex is known.
 template <std::floating_point T>
 struct SeenLampT {
-    T form_factor = T(0);   ///< For a surface that faces the side of `wo`.
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    /// The form factor from a surface that faces the side of `wo`.
+    T form_factor = T(0);
+    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
 };
 
 /// The form factor and the radiance of a light at a vertex.
@@ -57,7 +58,7 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The radiance that a Lambertian surface reflects from a lamp if nothing occludes the
-/// lamp, W/(m^2 sr).
+/// lamp, in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
                                  const LambertianT<T>& material) noexcept {
@@ -79,7 +80,7 @@ template <std::floating_point T>
 /// \param place   place(i, cells) returns a point of the unit square, in the i-th
 ///                cell.
 /// \param counts  Counts the rays.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
 [[nodiscard]] RgbT<T>
@@ -134,7 +135,7 @@ template <AnyWorld W, std::floating_point T>
 /// for this ray. The ray carries no other light.
 /// \param rays     Number of shadow rays per light.
 /// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -370,7 +371,7 @@ struct DirectLightSettings {
 ///                  Rays are counted. For a light with Verdict::shadow, n skipped rays
 ///                  are counted.
 /// \param verdicts  Called with a light's index; returns its known visibility.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T, Material M, typename Context,
           typename Verdicts = detail::NoVerdicts>

@@ -21,16 +21,17 @@ namespace ljus {
 /// |-----------------------------------|----------------------------------------------|
 /// | wo of a camera path               | the geometric normal becomes the z axis      |
 /// | wo of a photon                    | the same, and non-specular lobes absorb it   |
-/// | of a shadow ray, a stored photon  | there is no light                            |
-/// | sampled, from a mirror or glass   | sampled again around the geometric normal    |
-/// | sampled, from any other lobe      | the path ends                                |
+/// | of a shadow ray or stored photon  | there is no light                            |
+/// | sampled from a mirror or glass    | sampled again around the geometric normal    |
+/// | sampled from any other lobe       | the path ends                                |
 /// \{
 
 /// A scattered direction.
 template <std::floating_point T>
 struct ScatteredT {
-    BsdfSampleT<T> sample{}; ///< In the shading frame; z of its `wi` gives the side.
-    Vec3T<T> wi{T(0)};       ///< The direction in the world.
+    /// The sample in the shading frame; the sign of `wi.z` gives the side.
+    BsdfSampleT<T> sample{};
+    Vec3T<T> wi{T(0)}; ///< The direction in the world.
 };
 
 /// Samples a direction and respects both normals of the surface. The flux of a photon

@@ -23,9 +23,9 @@ enum class Verdict : std::uint8_t {
 /// The weights of multiple importance sampling \cite veach1997, for light that both a
 /// shadow ray and a scattered ray can find.
 enum class MisHeuristic : std::uint8_t {
-    balance,    ///< Proportional to the pdf.
-    power,      ///< Proportional to the square of the pdf.
-    shadow_rays ///< 1 for the shadow ray: next-event estimation alone.
+    balance,    ///< Weights proportional to the pdf.
+    power,      ///< Weights proportional to the square of the pdf.
+    shadow_rays ///< Weight 1 for the shadow ray: next-event estimation alone.
 };
 
 /// The balance heuristic: the weight of a sample that two strategies could have made
@@ -91,7 +91,7 @@ template <AnyWorld W, std::floating_point T>
 /// A light that fills the sky, as seen in one direction.
 template <std::floating_point T>
 struct SkyT {
-    RgbT<T> radiance{T(0)}; ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
     T pdf = T(0); ///< Density of the direction for a shadow ray, per steradian.
 };
 
@@ -145,8 +145,8 @@ template <std::floating_point T>
 /// The radiance that a vertex reflects from one sampled point of a light.
 template <std::floating_point T>
 struct LightShareT {
-    RgbT<T> sent{T(0)};    ///< Without occlusion and absorption.
-    RgbT<T> arrived{T(0)}; ///< With occlusion and absorption.
+    RgbT<T> sent{T(0)};    ///< The radiance without occlusion and absorption.
+    RgbT<T> arrived{T(0)}; ///< The radiance with occlusion and absorption.
 };
 
 /// The result of direct_light(), with and without occlusion.
@@ -207,7 +207,7 @@ template <AnyWorld W, std::floating_point T, Material M>
 /// \param mis       How the light is divided between this ray and a scattered ray.
 /// \param counts    Counts the ray. No ray is cast if the surface cannot reflect it.
 /// \param verdict   The known visibility. With Verdict::lit no ray is cast.
-/// \return Radiance towards `wo`, W/(m^2 sr).
+/// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number. A
 /// second lamp therefore dims the first.}

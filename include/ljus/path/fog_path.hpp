@@ -28,12 +28,13 @@ struct FogSegmentT {
 /// A point of a path where fog scatters it.
 template <std::floating_point T>
 struct FogVertexT {
-    SurfacePointT<T> point{};    ///< The position; the normal is 0.
-    Vec3T<T> travel{T(0)};       ///< Unit direction in which the path arrives.
-    std::uint32_t medium = 0;    ///< Number of the medium; see visit_fog().
-    T distance = T(0);           ///< From the start of the segment, in scene units.
-    RgbT<T> transmittance{T(1)}; ///< From the start of the segment to this point.
-    T time = T(0);               ///< Time of the path, in [0, 1].
+    SurfacePointT<T> point{}; ///< The position; the normal is 0.
+    Vec3T<T> travel{T(0)};    ///< Unit direction in which the path arrives.
+    std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
+    T distance = T(0); ///< Distance from the start of the segment, in scene units.
+    /// Transmittance from the start of the segment to this point.
+    RgbT<T> transmittance{T(1)};
+    T time = T(0); ///< Time of the path, in [0, 1].
 };
 
 /// Refuses a scene with both fog and thin surfaces.

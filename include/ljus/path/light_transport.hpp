@@ -76,11 +76,9 @@ struct ExpressionLog {
 /// A log that sums the terms of several classes of paths separately.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{}; ///< One for each class.
-    /// For each delayed term, one bit per class: 1 if the term belongs to the class.
-    std::vector<std::uint64_t> takers{};
-    /// delay() writes the number of delayed terms so far to this address.
-    std::uint32_t* next_delayed = nullptr;
+    std::vector<ExpressionLog<T>> logs{};  ///< One log for each class.
+    std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
+    std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
 
     /// Makes a log.
     /// \param classes  The classes of paths, at most 64; must outlive the log.
@@ -141,7 +139,7 @@ private:
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
-/// The radiance that a camera ray receives by paths of the class, W/(m^2 sr).
+/// The radiance that a camera ray receives by paths of the class, in W/(m^2 sr).
 /// \cost That of the other renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,

@@ -29,18 +29,20 @@ namespace ljus {
 /// A vertex of a path, for all renderers and the photon pass.
 template <std::floating_point T>
 struct VertexT {
-    SurfacePointT<T> point{};      ///< Position, rounding error, geometric normal.
-    FrameT<T> frame{};             ///< Shading frame, in which materials work.
-    Vec3T<T> wo{T(0), T(0), T(1)}; ///< Unit vector to the previous vertex, in `frame`.
-    Vec2T<T> uv{T(0)};         ///< texture_coordinates(), if the material uses them.
-    ObjectId id{};             ///< Number of the object.
-    ObjectT<T> object{};       ///< Material and emission of the object.
-    T outside = T(1);          ///< Index of refraction on the outside; 1 in air.
-    RgbT<T> medium{T(0)};      ///< Absorption before the vertex, per scene unit.
-    T distance = T(0);         ///< Distance from the previous vertex, in scene units.
-    T time = T(0);             ///< Time of the path, in [0, 1].
-    T stop_probability = T(1); ///< At a thin surface: probability of not passing it.
-    T wavelength = line_d<T>;  ///< Wavelength for dispersive glass, in nm.
+    SurfacePointT<T> point{}; ///< Position, rounding error, geometric normal.
+    FrameT<T> frame{};        ///< Shading frame, in which materials work.
+    /// Unit direction to the previous vertex, in the frame.
+    Vec3T<T> wo{T(0), T(0), T(1)};
+    Vec2T<T> uv{T(0)};    ///< Texture coordinates, set if the material uses them.
+    ObjectId id{};        ///< Number of the object.
+    ObjectT<T> object{};  ///< Material and emission of the object.
+    T outside = T(1);     ///< Index of refraction on the outside; 1 in air.
+    RgbT<T> medium{T(0)}; ///< Absorption before the vertex, per scene unit.
+    T distance = T(0);    ///< Distance from the previous vertex, in scene units.
+    T time = T(0);        ///< Time of the path, in [0, 1].
+    /// At a thin surface, the probability of not passing the surface.
+    T stop_probability = T(1);
+    T wavelength = line_d<T>; ///< Wavelength for dispersive glass, in nm.
     bool smooth = false; ///< Whether the normals differ but agree on the side of `wo`.
     bool turned = false; ///< Whether the normals disagree on the side of `wo`.
 
@@ -490,8 +492,8 @@ namespace detail {
 /// The surfaces that a path passes between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)};     ///< Transmittance over the probability of passing.
-    T distance = T(0);         ///< From the first vertex to the last passed surface.
+    RgbT<T> through{T(1)}; ///< Transmittance over the probability of passing.
+    T distance = T(0); ///< Distance from the first vertex to the last passed surface.
     T stop_probability = T(1); ///< Probability of stopping at a thin surface; else 1.
     std::uint8_t outside = 0;  ///< Rank of the body outside; see BodyList. 0: air.
 };

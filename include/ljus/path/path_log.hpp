@@ -27,7 +27,7 @@ struct PathLogLine {
 
 /// A log that records every vertex and every term of a path.
 struct PathLog {
-    std::vector<PathLogLine> lines; ///< In the order of the path.
+    std::vector<PathLogLine> lines; ///< The lines, in the order of the path.
     std::string letters = "E";      ///< Letters of the path so far.
     glm::dvec3 here{0};             ///< Position at which the path has last arrived.
 

@@ -33,7 +33,8 @@ struct PathStateT {
     BodyList behind{};
     Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
     T pdf = T(0);            ///< Density of the direction, per steradian; 0: delta.
-    /// In nm. It is 0, for all wavelengths, until the path meets a Dispersive material.
+    /// The wavelength in nm; 0, for all wavelengths, until the path meets a Dispersive
+    /// material.
     T wavelength = T(0);
     bool specular = false;     ///< Whether the last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.
@@ -47,8 +48,8 @@ using PathState = PathStateT<float>; ///< PathStateT in float.
 /// probability proportional to its throughput. The throughput of a survivor is divided
 /// by this probability, so that the mean stays the same. The scaling of radiance by
 /// refraction, `eta_scale`, does not influence the probability.
-/// \param throughput       Its largest channel counts. Divided by the probability if
-///                         the path survives.
+/// \param throughput       The throughput, whose largest channel counts. It is divided
+///                         by the probability if the path survives.
 /// \param eta_scale        PathStateT::eta_scale.
 /// \param u                In [0, 1).
 /// \param threshold        Paths with a larger throughput survive with probability

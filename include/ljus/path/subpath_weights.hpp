@@ -25,10 +25,9 @@ namespace ljus {
 /// densities cancel, and both are given as 0.
 /// \{
 
-/// The two numbers of the last vertex x of a subpath. They give the density of all
-/// strategies that join the two subpaths earlier on this subpath. Relative to the
-/// strategy that connects x to a vertex y of the other subpath, the sum of these
-/// densities is
+/// Two numbers for the last vertex x of a subpath. Let x be connected to a vertex y of
+/// the other subpath. The two numbers give the sum of the densities of all strategies
+/// whose joint lies on this subpath instead, relative to the density of the connection:
 ///
 /// \f[ \overleftarrow{p}\,\bigl(\mathrm{join} + \eta
 ///     + \overleftarrow{\sigma}\,\mathrm{further}\bigr) . \f]
@@ -131,8 +130,8 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 }
 // [ends]
 
-/// The sum of the densities of all strategies that join the subpaths earlier on one of
-/// them, relative to the density of merging at x.
+/// The sum of the densities of all strategies whose joint lies on one subpath before x,
+/// relative to the density of merging at x.
 /// \param at       The weights of the subpath at x.
 /// \param back     Density of the direction from x to the vertex before x, per
 ///                 steradian.
@@ -183,7 +182,7 @@ template <std::floating_point T>
 /// on.
 template <std::floating_point T>
 struct TurnT {
-    RgbT<T> f{T(0)};   ///< The BSDF, 1/sr; 0 if the normals disagree about the side.
+    RgbT<T> f{T(0)};   ///< The BSDF, in 1/sr; 0 if the normals disagree about the side.
     T shading = T(0);  ///< |cosine| of the direction and the shading normal.
     double cosine = 0; ///< |cosine| of the direction and the geometric normal.
     double pdf = 0;    ///< Density of the direction, per steradian.

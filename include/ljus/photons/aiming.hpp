@@ -72,8 +72,9 @@ namespace detail {
 /// How a point of a light aims at an object.
 template <std::floating_point T>
 struct AimT {
-    ConeT<T> cone{};      ///< The cone into which the point aims.
-    bool at_area = false; ///< Whether the point aims at the object's area instead.
+    ConeT<T> cone{}; ///< The cone into which the point aims.
+    /// Whether the point aims at the object's area instead of the cone.
+    bool at_area = false;
     T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
 };
 
@@ -146,15 +147,16 @@ template <std::floating_point T, typename AimOf>
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)}; ///< Unit vector.
-    T pdf = T(0);      ///< Density per steradian, times the probability of the object.
+    T pdf = T(0); ///< The density per steradian, times the probability of the object.
     ObjectId target{}; ///< The object.
 };
 
 /// The random numbers of an aimed photon, in the order in which they are drawn.
 template <std::floating_point T>
 struct AimNumbersT {
-    T probability;        ///< Probability of the light, which is chosen first.
-    Vec2T<T> u_point;     ///< Chooses a point of the light; of a disc if it is distant.
+    T probability; ///< Probability of the light, which is chosen first.
+    /// Chooses a point of the light, or of a disc for a distant light.
+    Vec2T<T> u_point;
     T u_target;           ///< Chooses the target.
     Vec2T<T> u_direction; ///< Chooses the direction.
     T time;               ///< Time of the photon.
@@ -162,8 +164,9 @@ struct AimNumbersT {
 
 template <std::floating_point T>
 struct LeavingAimedT {
-    LeavingPhotonT<T> photon{}; ///< Its flux is divided by the light's probability.
-    ObjectId target{};          ///< The object at which it is aimed.
+    /// The photon; the flux is divided by the light's probability.
+    LeavingPhotonT<T> photon{};
+    ObjectId target{}; ///< The object at which the photon is aimed.
 };
 
 /// Aims a photon of a distant light at a target, uniformly over the cross section of
@@ -321,7 +324,7 @@ inline void check_shares(std::span<const double> shares, std::size_t count,
 /// \param targets  The objects, at least one.
 /// \param shares   The probabilities, which must pass check_shares(). If empty, the
 ///                 function does the same as aim().
-/// \param stream   With shares, one number more is drawn than by aim().
+/// \param stream   With shares, one more number is drawn than by aim().
 /// \return As aim().
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] std::optional<AimedPhotonT<typename W::Scalar>>

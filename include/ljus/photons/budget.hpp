@@ -53,11 +53,13 @@ namespace ljus {
 struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.
-    double flux = 0;        ///< Luminance of the flux of the object's caustic, W.
-    double area = 0;        ///< Size of the caustic: flux over mean irradiance.
-    double absolute = 0;    ///< Scatter of the irradiance, W.
-    double relative = 0;    ///< Scatter relative to the caustic's mean, as an area.
-    double visible = 0;     ///< Scatter relative to all light, as an area.
+    double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
+    double area = 0;        ///< Area of the caustic: flux over mean irradiance.
+    double absolute = 0;    ///< Scatter of the irradiance, in W.
+    /// Scatter relative to the caustic's mean irradiance, in squared scene units.
+    double relative = 0;
+    /// Scatter relative to the irradiance of all light, in squared scene units.
+    double visible = 0;
 };
 
 namespace detail {
@@ -116,7 +118,7 @@ struct PilotLightT {
     const PhotonMapT<T>& rest;     ///< Photons of all other light.
     T radius = T(0);               ///< Search radius in `caustics`.
     T wide = T(0);                 ///< Search radius in `rest`.
-    double dark = 0;               ///< A tenth of the mean irradiance, W/m^2.
+    double dark = 0;               ///< A tenth of the mean irradiance, in W/m^2.
 
     /// Sums the flux and the scatters of an object.
     /// \param photons  The photons that its pilot stored.

@@ -29,7 +29,7 @@ template <typename Material, typename K>
 
 /// The plain counterpart of estimate_radiance() with a fixed radius. It adds one photon
 /// at a time. The arguments are those of estimate_radiance().
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 // [plain estimate]
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
 [[nodiscard]] RgbT<T>
@@ -79,8 +79,8 @@ estimate_radiance_plain(const PhotonMapT<T>& map, const VertexT<T>& surface,
 /// \param gather    The settings.
 /// \param kinds     The kinds of photons that count.
 /// \param gathered  A counter. The number of summed photons is added to it.
-/// \return Radiance, W/(m^2 sr). 0 if the k nearest photons lie so close to the point
-///         that the disc has no area.
+/// \return Radiance, in W/(m^2 sr). It is 0 if the k nearest photons lie so close to
+///         the point that the disc has no area.
 /// \throws std::invalid_argument  if k is 1 or above max_nearest. The other settings
 ///         must pass check().
 /// \report{Section 3.2.6}

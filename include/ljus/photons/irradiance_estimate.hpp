@@ -38,11 +38,11 @@ inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 ///            own type of kernel, see KernelLike.
 template <KernelLike K>
 struct DensityEstimateOf {
-    float radius = 0.1f; ///< In scene units, from 1e-15 to 1e15.
+    float radius = 0.1f; ///< Search radius in scene units, from 1e-15 to 1e15.
     /// 0: all photons within the radius. Otherwise k, the number of nearest photons
     /// within the radius.
     std::size_t nearest = 0;
-    K kernel = detail::default_kernel<K>; ///< Weight by distance.
+    K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
     /// Half the height of the disc over its radius. A small value excludes photons of
     /// parallel walls. On a ball whose radius is at least that of the disc, 0.5 is
     /// enough to contain the surface within the radius.
@@ -91,8 +91,9 @@ namespace detail {
 
 /// A sum over the photons of a disc.
 struct DiscSum {
-    RgbT<double> sum{0}; ///< In double, because float would lose the last terms.
-    double radius2 = 1;  ///< Squared radius of the disc.
+    /// The sum, in double because float would lose the last terms.
+    RgbT<double> sum{0};
+    double radius2 = 1; ///< Squared radius of the disc.
 };
 
 /// Divides a sum over a disc by the area of the disc.
@@ -116,7 +117,7 @@ struct OfKinds {
 /// The photons of an estimate with the k nearest.
 struct NearestPhotons {
     std::span<const Neighbor> photons{}; ///< The photons, in no particular order.
-    double radius2 = 0;                  ///< Squared radius of their disc.
+    double radius2 = 0;                  ///< Squared radius of the disc.
 };
 
 /// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is

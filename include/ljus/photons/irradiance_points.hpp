@@ -28,15 +28,17 @@ namespace ljus {
 /// The irradiance at a point of a surface.
 template <std::floating_point T>
 struct IrradianceAtT {
-    RgbT<T> irradiance{T(0)};          ///< Of all light, including direct light, W/m^2.
+    /// The irradiance by all light, including direct light; in W/m^2.
+    RgbT<T> irradiance{T(0)};
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal on the lit side.
 };
 
 /// Points with known irradiance, in a tree.
 template <std::floating_point T>
 struct IrradiancePointsT {
-    KdTree8T<T> tree;                      ///< Positions.
-    std::vector<IrradianceAtT<T>> records; ///< In the tree's order.
+    KdTree8T<T> tree; ///< The positions of the points.
+    /// The irradiance at the points, in the tree's order.
+    std::vector<IrradianceAtT<T>> records;
     T radius = T(0); ///< Largest distance of a lookup to a point, in scene units.
     T disc = T(0);   ///< Largest radius of an estimate, in scene units.
 

@@ -25,7 +25,7 @@ struct IrradiancePointSettings {
     /// If the map has fewer indirect photons than this, gather rays use no lookup
     /// points and continue as paths.
     int least = 0;
-    bool edges = true; ///< Divide an estimate by part_on_surface().
+    bool edges = true; ///< Whether an estimate is divided by part_on_surface().
 };
 
 /// \}

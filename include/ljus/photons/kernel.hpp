@@ -29,7 +29,7 @@ namespace ljus {
 
 /// The library's kernels, up to a factor, with the distance d and the radius r.
 enum class Kernel : std::uint8_t {
-    box,          ///< 1, as in the report.
+    box,          ///< The constant 1, as in the report.
     cone,         ///< 1 - d/r: Jensen's cone filter with k = 1 \cite jensen2001.
     gaussian,     ///< exp(-2 d^2 / r^2), up to d = r.
     epanechnikov, ///< 1 - d^2/r^2: least variance at equal bias \cite silverman1986.

@@ -19,12 +19,13 @@ namespace ljus {
 
 /// Settings of the light paths, and of their joints with paths from the eye.
 struct LightPathSettings {
-    long long paths = 100000;    ///< Number of light paths, at least 1.
-    float radius = 0.02f;        ///< Radius of merging, in scene units; 0: no merging.
-    int max_depth = 100;         ///< Surfaces between a light and the eye, at least 1.
+    long long paths = 100000; ///< Number of light paths, at least 1.
+    float radius = 0.02f;     ///< Radius of merging, in scene units; 0: no merging.
+    /// Largest number of surfaces between a light and the eye, at least 1.
+    int max_depth = 100;
     std::uint64_t seed = 1;      ///< Seed of the random streams.
     std::uint64_t iteration = 0; ///< Index of the repetition.
-    int threads = 0;             ///< As in ParallelSettings.
+    int threads = 0;             ///< Number of threads, as in ParallelSettings.
 
     /// The term \f$\eta\f$ of SubpathWeights: the number of paths times the area of a
     /// disc with the merging radius.
@@ -50,8 +51,8 @@ struct LightVertexT {
     RgbT<T> flux{T(0)};       ///< The flux that arrives, in W, as in a PhotonT.
     SubpathWeights weights{}; ///< The weights at the vertex.
     int depth = 0;            ///< Number of surfaces from the light to this vertex.
-    /// Heckbert's letters of a path from another diffuse surface through this vertex
-    /// back to the light: "DD...L".
+    /// Heckbert's letters of a path that goes from another diffuse surface to this
+    /// vertex, and back to the light: "DD...L".
     std::string letters{};
 };
 

@@ -18,11 +18,11 @@ namespace ljus {
 
 /// The kind of a photon, by its path in Heckbert's notation \cite heckbert1990.
 enum class PhotonKind : std::uint8_t {
-    direct,   ///< L D: it comes straight from its light.
-    caustic,  ///< L S+ D: it has met mirrors and glass only.
-    indirect, ///< L ... D ... D: it has met a diffuse surface or fog before.
-    shadow,   ///< It marks a surface that is in shadow, and carries no light.
-    fog       ///< Fog scatters it; see \ref volume_photons.
+    direct,   ///< L D: the photon comes straight from its light.
+    caustic,  ///< L S+ D: the photon has met mirrors and glass only.
+    indirect, ///< L ... D ... D: the photon has met a diffuse surface or fog before.
+    shadow,   ///< The photon marks a surface that is in shadow, and carries no light.
+    fog       ///< Fog scatters the photon; see \ref volume_photons.
 };
 
 /// A set of kinds. Each kind has one bit: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16
@@ -79,7 +79,7 @@ template <std::floating_point T>
 /// \erratum{The report says that a photon has a radiance. A photon carries flux, in W.}
 template <std::floating_point T>
 struct PhotonT {
-    Vec3T<T> position{T(0)};  ///< In scene units.
+    Vec3T<T> position{T(0)};  ///< The position, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
     /// The flux that arrives, in W. For a shadow photon it is the flux that is
     /// occluded; in fog, the flux that is scattered.
@@ -106,7 +106,8 @@ struct FluxAudit {
     RgbT<double> emitted{0};  ///< Flux that lights have emitted.
     RgbT<double> absorbed{0}; ///< Flux that materials and media have absorbed.
     RgbT<double> escaped{0};  ///< Flux that has left the scene.
-    /// Flux of paths that end at the depth limit, or at another object than the target.
+    /// Flux of paths that end at the depth limit, or at an object that is not their
+    /// target.
     RgbT<double> cut{0};
     /// Flux lost minus flux gained by random decisions: by Russian roulette, and by the
     /// choice of a wavelength. Its mean is 0.

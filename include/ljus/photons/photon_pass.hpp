@@ -20,8 +20,9 @@ namespace ljus {
 
 /// The kind of a photon map. It determines which photons are scattered and stored.
 enum class MapType : std::uint8_t {
-    general, ///< Any scattering. Stores L D and L ... D ... D, but not L S+ D.
-    caustics ///< Scattering at mirrors and glass only. Stores L S+ D.
+    /// All surfaces scatter. The map stores L D and L ... D ... D, not L S+ D.
+    general,
+    caustics ///< Only mirrors and glass scatter. The map stores L S+ D.
 };
 
 /// A criterion for the distribution of caustic photons among objects; see \ref budget.
@@ -46,9 +47,9 @@ struct PhotonPassSettings {
     std::uint64_t iteration = 0;    ///< Index of the repetition.
     int max_bounces = 1000;         ///< Largest number of surfaces per photon.
     bool shadow_photons = true;     ///< Whether the general map stores shadow photons.
-    PhotonKinds keep = light_kinds; ///< The other kinds of photons to store.
+    PhotonKinds keep = light_kinds; ///< The kinds to store besides shadow photons.
     /// Whether every light emits the same number of photons, instead of a number in
-    /// proportion to its power. Useful for shadow photons.
+    /// proportion to its power. This is useful for shadow photons.
     bool equal_lights = false;
     PhotonSampling numbers = PhotonSampling::random; ///< The random numbers.
     /// Whether objects with a nearly_specular() material count as mirrors. The light
@@ -56,16 +57,18 @@ struct PhotonPassSettings {
     /// caustics map. A PhotonMapper sets this member.
     bool gloss_as_mirrors = false;
     /// The fraction of the caustic photons for each object of specular_objects(); the
-    /// sum is 1. If empty, as for CausticBudget::as_seen. See \ref budget.
+    /// sum is 1. If empty, the fractions are those of CausticBudget::as_seen. See \ref
+    /// budget.
     std::vector<double> shares = {};
     /// The probability with which a photon chooses each light; the sum is 1. If empty,
-    /// in proportion to power. See pilot_lights().
+    /// the probabilities are in proportion to power. See pilot_lights().
     std::vector<double> light_shares = {};
     double max_memory = 4e9; ///< Limit in bytes for the photons and their map.
     /// A pass that has stored no photon after this number of paths ends.
     long long give_up = 1LL << 20;
-    int threads = 0;                 ///< Number of threads; 0: all processors.
-    Progress progress = no_progress; ///< Called with (done, total); false stops.
+    int threads = 0; ///< Number of threads; 0: all processors.
+    /// Called with (done, total); returns false to stop.
+    Progress progress = no_progress;
 };
 
 /// Checks the settings of a photon pass.

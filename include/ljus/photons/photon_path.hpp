@@ -51,8 +51,8 @@ template <typename L, typename Point>
 /// A photon that leaves a given light.
 template <std::floating_point T>
 struct LeavingPhotonT {
-    RayT<T> ray{};      ///< Origin and direction; its time is not set.
-    RgbT<T> flux{T(0)}; ///< Flux times the number of photons of the light, W.
+    RayT<T> ray{};      ///< The ray, without its time.
+    RgbT<T> flux{T(0)}; ///< Flux times the number of photons of the light, in W.
 };
 
 /// Emits a photon of a light, with the density of the light's own emission. A near
@@ -85,7 +85,7 @@ template <Light L, std::floating_point T>
 template <std::floating_point T>
 struct EmittedPhotonT {
     RayT<T> ray{};           ///< Origin, direction and time.
-    RgbT<T> flux{T(0)};      ///< W, not yet divided by the number of paths.
+    RgbT<T> flux{T(0)};      ///< The flux in W, not yet divided by the number of paths.
     std::uint16_t light = 0; ///< Index of the light.
 };
 

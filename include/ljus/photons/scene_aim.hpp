@@ -141,7 +141,7 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 template <std::floating_point T>
 struct SceneAimT {
     LightChoice choice{}; ///< The distribution of the lights.
-    SphereT<T> sphere{};  ///< From lit_sphere().
+    SphereT<T> sphere{};  ///< The result of lit_sphere().
     /// 1 for each light that is aimed, 0 for the others; empty if no light is aimed.
     std::vector<std::uint8_t> is_aimed{};
 
@@ -166,7 +166,7 @@ struct SceneAimT {
 /// \param by_power  True if `choice` is in proportion to power. An aimed light is then
 ///                  chosen in proportion to its flux into the cone around the scene.
 /// \return The arguments of emit().
-/// \cost lit_sphere(), and at most 64 samples per light.
+/// \cost That of lit_sphere(), and at most 64 samples per light.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] SceneAimT<T>
 aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {

@@ -35,7 +35,7 @@ struct SkipSettings {
     bool indirect_rays = false;
     float radius = 0; ///< Search radius in scene units; 0: chosen from the photons.
     float tolerance = 0.05f; ///< Occluded fraction of a light that may be ignored.
-    float risk = 0.05f;      ///< Probability of ignoring a larger fraction.
+    float risk = 0.05f;      ///< Probability of ignoring a fraction above `tolerance`.
 };
 
 /// Checks the settings for skipping rays.

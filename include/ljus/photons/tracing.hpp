@@ -57,8 +57,9 @@ void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
 /// The photons of a pass in parts, which can be freed one by one.
 template <std::floating_point T>
 struct TracedPartsT {
-    std::vector<std::vector<PhotonT<T>>> parts{}; ///< In the order of emission.
-    std::size_t stored = 0;                       ///< The number of all photons.
+    /// The photons, in the order of emission.
+    std::vector<std::vector<PhotonT<T>>> parts{};
+    std::size_t stored = 0;   ///< The number of all photons.
     TracedPhotonsT<T> pass{}; ///< The other results; its own list of photons is empty.
 };
 

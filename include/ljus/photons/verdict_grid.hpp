@@ -19,13 +19,14 @@ namespace ljus {
 /// of four times the length are used.
 template <std::floating_point T>
 struct VerdictGridT {
-    detail::VerdictBitsT<T> known{}; ///< The verdicts, by brick.
+    detail::VerdictBitsT<T> known{}; ///< The verdicts, in bricks of 4 x 4 x 4 cells.
     bool dark_known = false;         ///< Whether indirect photons were counted.
 
     /// A cell, with a facing of a surface.
     struct Cell {
-        const std::uint64_t* bits = nullptr; ///< Bits of its brick, if there is one.
-        std::uint32_t cell = 0;              ///< Index in the brick, 0 to 63.
+        /// The bits of the cell's brick; null if there is no brick.
+        const std::uint64_t* bits = nullptr;
+        std::uint32_t cell = 0; ///< Index in the brick, 0 to 63.
     };
 
     /// Whether the grid has no verdicts.

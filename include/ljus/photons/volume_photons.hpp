@@ -45,10 +45,10 @@ namespace ljus {
 /// A photon in fog.
 template <std::floating_point T>
 struct VolumePhotonT {
-    Vec3T<T> position{T(0)};  ///< Point where fog scatters it, in scene units.
+    Vec3T<T> position{T(0)};  ///< Point where fog scatters the photon, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
-    RgbT<T> flux{T(0)};       ///< Scattered flux, W.
-    T radius = T(1);          ///< Radius of the ball over which it is spread; above 0.
+    RgbT<T> flux{T(0)};       ///< Scattered flux, in W.
+    T radius = T(1); ///< Radius of the ball over which the flux is spread; above 0.
     std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
 };
 using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
@@ -78,7 +78,7 @@ struct VolumeMapT {
     /// The type of the tree. A World uses the same type.
     using Tree = std::conditional_t<std::is_same_v<T, float>, Bvh8, BvhT<T>>;
     Tree tree{};                             ///< The tree over the boxes.
-    std::vector<VolumePhotonT<T>> photons{}; ///< In the order of the tree.
+    std::vector<VolumePhotonT<T>> photons{}; ///< The photons, in the order of the tree.
 
     /// Whether the map has no photons.
     [[nodiscard]] bool empty() const noexcept { return photons.empty(); }
@@ -208,7 +208,7 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 /// \param kernel   The kernel.
 /// \param visited  A counter. The number of photons whose boxes the ray meets is added
 ///                 to it.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 /// \cost One call of light_of_photon() for each box that the ray meets.
 // [tree beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>

@@ -43,14 +43,16 @@ struct FormFactors {
 /// How form factors are computed.
 struct FormFactorSettings {
     bool analytic = true; ///< Whether flat patches use the closed form.
-    int rays = 256;       ///< Rays per patch that does not use the closed form.
+    int rays = 256; ///< Number of rays per patch, for patches without the closed form.
     /// Rays between two flat patches, to find the visible fraction. None are cast in a
     /// convex scene, see Patches::convex.
     int shadow_rays = 16;
-    bool closed = false; ///< For a room without openings: make each row sum exactly 1.
-    std::uint64_t seed = 1;          ///< Seed of the random streams.
-    int threads = 0;                 ///< As in ParallelSettings.
-    Progress progress = no_progress; ///< Called with (done, total); false stops.
+    /// Whether to make each row sum exactly 1, for a room without openings.
+    bool closed = false;
+    std::uint64_t seed = 1; ///< Seed of the random streams.
+    int threads = 0;        ///< Number of threads, as in ParallelSettings.
+    /// Called with (done, total); returns false to stop.
+    Progress progress = no_progress;
 };
 
 namespace detail {

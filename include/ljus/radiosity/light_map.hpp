@@ -35,7 +35,7 @@ struct LightMapKey {
 struct LightMap {
     LightMapKey key{};                      ///< Identifies scene and settings.
     std::vector<PatchGrid> grids{};         ///< One grid per side of an object.
-    std::vector<RgbT<double>> irradiance{}; ///< Irradiance of each patch, W/m^2.
+    std::vector<RgbT<double>> irradiance{}; ///< Irradiance of each patch, in W/m^2.
 };
 
 namespace detail {
@@ -88,8 +88,8 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
 /// The irradiance at the vertices of a grid: the mean over the adjacent cells
 /// \cite gouraud1971.
 /// \param grid        The grid.
-/// \param irradiance  The irradiance of each cell, W/m^2.
-/// \return The irradiance at each vertex, W/m^2.
+/// \param irradiance  The irradiance of each cell, in W/m^2.
+/// \return The irradiance at each vertex, in W/m^2.
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -107,7 +107,7 @@ vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
 
 /// How a light map is drawn.
 struct LightMapSettings {
-    bool smooth = true; ///< True: interpolated between vertices; false: flat patches.
+    bool smooth = true; ///< Whether irradiance is interpolated between vertices.
 };
 
 /// A renderer that draws a light map, by `render(view, camera, picture)`.
@@ -195,7 +195,7 @@ blended_light(const PatchGrid& grid, const glm::dvec2& at,
 }
 
 /// The radiance along a ray, by one intersection and one look-up in the map.
-/// \return Emitted radiance plus albedo/pi times irradiance, W/(m^2 sr). Surfaces
+/// \return Emitted radiance plus albedo/pi times irradiance, in W/(m^2 sr). Surfaces
 ///         without patches reflect nothing.
 /// \report{Section 2.2}
 // [radiance]

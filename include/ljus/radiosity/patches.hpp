@@ -20,10 +20,10 @@ namespace ljus {
 /// A patch: a cell of one side of an object, with constant radiosity.
 // [patch]
 struct Patch {
-    std::uint32_t grid = 0;  ///< Index of its grid in Patches::grids.
-    double area = 0;         ///< In squared scene units.
+    std::uint32_t grid = 0;  ///< Index of the grid in Patches::grids.
+    double area = 0;         ///< The area, in squared scene units.
     RgbT<double> albedo{0};  ///< Reflected fraction of the light.
-    RgbT<double> emitted{0}; ///< Emitted radiosity, W/m^2: pi times the radiance.
+    RgbT<double> emitted{0}; ///< Emitted radiosity, in W/m^2: pi times the radiance.
     Facet facet{};           ///< The corners of a flat patch; empty on a ball.
 };
 // [patch]

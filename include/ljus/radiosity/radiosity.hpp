@@ -23,7 +23,7 @@ struct RadiositySettings {
 struct EnergyBalance {
     RgbT<double> emitted{0};  ///< Flux that all patches emit.
     RgbT<double> absorbed{0}; ///< Flux that all patches absorb.
-    RgbT<double> escaped{0};  ///< Flux through openings, or to other surfaces.
+    RgbT<double> escaped{0}; ///< Flux through openings, or to surfaces without patches.
 };
 
 /// The results of radiosity, step by step.
@@ -37,10 +37,9 @@ struct Radiosity {
 /// The energy balance of a solution.
 /// \param patches    The patches.
 /// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, W/m^2.
-/// \return The three fluxes. For an exact solution, the emitted flux is the sum of the
-///         absorbed and the escaped flux, up to rounding, for any size of patches and
-///         any number of rays.
+/// \param radiosity  The radiosity of each patch, in W/m^2.
+/// \return For an exact solution, emitted is absorbed plus escaped, up to rounding, for
+///         any size of patches and any number of rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -74,7 +73,7 @@ template <AnyWorld W>
 /// \param world      The closed scene.
 /// \param patches    The patches.
 /// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, W/m^2.
+/// \param radiosity  The radiosity of each patch, in W/m^2.
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,

@@ -35,13 +35,13 @@ struct SolveSettings {
     /// flux.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
-    /// Threads of RadiositySolver::jacobi, as in ParallelSettings.
+    /// Number of threads of RadiositySolver::jacobi, as in ParallelSettings.
     int threads = 0;
 };
 
 /// The radiosity of all patches.
 struct RadiositySolution {
-    std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, W/m^2.
+    std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, in W/m^2.
     /// The unshot flux over the emitted flux: at the start, and after each sweep.
     std::vector<double> residual{};
     bool converged = true; ///< True if the tolerance was reached.
@@ -79,7 +79,7 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
 
 /// Solves the equations by elimination. If the albedo of every patch is grey, all
 /// channels are solved at once, otherwise one channel after the other.
-/// \return Radiosity, W/m^2.
+/// \return Radiosity, in W/m^2.
 /// \cost Memory for n^2 numbers, and n^3/3 multiplications per solution: 10 s for 3000
 ///       patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -109,7 +109,7 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
 }
 
 /// The irradiance of all patches.
-/// \param radiosity  The radiosity of each patch, W/m^2.
+/// \param radiosity  The radiosity of each patch, in W/m^2.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
 /// \cost n^2 multiplications per channel.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -153,8 +153,8 @@ inline void require_loss(const FormFactors& factors,
 }
 
 /// Shoots the unshot light of all patches at once: one bounce.
-/// \param solution  The radiosity, W/m^2. The shot light is added.
-/// \param unsent    The unshot light, W/m^2. Receives the light after the bounce.
+/// \param solution  The radiosity, in W/m^2. The shot light is added.
+/// \param unsent    The unshot light, in W/m^2. Receives the light after the bounce.
 /// \cost n^2 multiplications per channel.
 inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
                       int threads, std::vector<RgbT<double>>& solution,
@@ -172,8 +172,8 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 /// \param factors   The form factors.
 /// \param patches   The patches.
 /// \param i         The index of the patch.
-/// \param solution  The radiosity, W/m^2. The shot light is added to that of patch i.
-/// \param unsent    The unshot light, W/m^2. That of patch i becomes 0.
+/// \param solution  The radiosity in W/m^2. The shot light is added to that of patch i.
+/// \param unsent    The unshot light in W/m^2. That of patch i becomes 0.
 /// \cost n multiplications per channel.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
@@ -191,7 +191,7 @@ inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& pa
 
 /// The patch with the most unshot flux.
 /// \param factors  The form factors.
-/// \param unsent   The unshot light of each patch, W/m^2.
+/// \param unsent   The unshot light of each patch, in W/m^2.
 /// \return The index of the patch; the first index if several patches have the most.
 [[nodiscard]] inline std::size_t
 brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {

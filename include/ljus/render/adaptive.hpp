@@ -95,15 +95,15 @@ namespace detail {
 
 /// A square of pixels; all of them have the same number of rays.
 struct AdaptiveBlock {
-    int x = 0, y = 0;          ///< Column and row of its upper left pixel.
-    int right = 0, bottom = 0; ///< One past its last column and row.
+    int x = 0, y = 0;          ///< Column and row of the upper left pixel.
+    int right = 0, bottom = 0; ///< One past the last column and row.
     int rays = 0;              ///< Rays per pixel so far, without discarded ones.
     int batches = 0;           ///< Batches traced so far, including the first rays.
     int wanted = 1;            ///< Batches to trace in this round.
     int more = 0;              ///< Rays per pixel in each batch but the first.
     double variance = 0; ///< Relative variance of the rays; see relative_variance().
-    Rgb sum{0};          ///< Sum of the radiance of its first rays.
-    Rgb squares{0};      ///< Sum of the squared radiance of its first rays.
+    Rgb sum{0};          ///< Sum of the radiance of the first rays.
+    Rgb squares{0};      ///< Sum of the squared radiance of the first rays.
 
     [[nodiscard]] constexpr double pixels() const noexcept {
         return double(right - x) * (bottom - y);
@@ -132,7 +132,7 @@ adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
 struct RowSums {
     int width = 0;                   ///< Width of the picture.
     int top = 0;                     ///< The first row.
-    std::vector<PixelSums> pixels{}; ///< Row by row.
+    std::vector<PixelSums> pixels{}; ///< The sums of the pixels, row by row.
 
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return pixel_index(width, x, y - top);
@@ -200,8 +200,8 @@ inline void set_statistics(AdaptiveBlock& block, const RowSums& sums,
 
 /// The statistics of a block that ray_shares() needs.
 struct RayShare {
-    double pixels = 1;   ///< Its number of pixels.
-    double variance = 0; ///< Relative variance of one ray, mean over its pixels.
+    double pixels = 1;   ///< Number of pixels in the block.
+    double variance = 0; ///< Relative variance of one ray, as a mean over the pixels.
     double rays = 1;     ///< Rays per pixel so far.
 };
 

@@ -26,9 +26,8 @@ struct DistributedSettings {
                        ///< least 0.
 };
 
-/// A tracer of distributed rays of a world, which must outlive it.
-/// RenderSettings::sampling stratifies the rays of a pixel over its area and over all
-/// other dimensions.
+/// A tracer of distributed rays. RenderSettings::sampling stratifies the rays of a
+/// pixel over the area of the pixel and over all other dimensions.
 template <typename W>
 class DistributedTracer {
 public:
@@ -89,8 +88,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// \param ray      A primary ray.
 /// \param context  The random stream of this ray; counts rays, and logs terms, with a
 ///                 glossy surface as D.
-/// \return Radiance, W/(m^2 sr): an unbiased estimate of the light of the paths in \ref
-///         distributed_rays, up to max_depth.
+/// \return Radiance, in W/(m^2 sr): an unbiased estimate of the light of the paths in
+///         \ref distributed_rays, up to max_depth.
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.
 /// \report{Section 2.1}
 // [radiance]

@@ -38,7 +38,7 @@ template <std::floating_point T>
 /// \param material    The material of the surface.
 /// \param wo          Unit vector in the surface's frame, to the viewer.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
-///                    which the direction points, W/m^2.
+///                    which the direction points, in W/m^2.
 /// \param which       The lobes.
 /// \param stream      Three numbers are drawn.
 /// \return W/(m^2 sr).
@@ -59,15 +59,18 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
 /// The data that gather rays look up where they end.
 template <std::floating_point T>
 struct GatherLookupT {
-    const IrradiancePointsT<T>* points;     ///< The points with known irradiance.
-    const PhotonMapT<T>* general = nullptr; ///< Estimates the irradiance where no
-                                            ///< point is near; may be null.
-    IrradiancePointSettings irradiance{};   ///< How the points were made.
+    const IrradiancePointsT<T>* points; ///< The points with known irradiance.
+    /// The general map, from which irradiance is estimated where no point is near; may
+    /// be null.
+    const PhotonMapT<T>* general = nullptr;
+    IrradiancePointSettings irradiance{}; ///< How the points were made.
     /// The caustics map, for such estimates and for glossy surfaces; may be null.
     const PhotonMapT<T>* caustics = nullptr;
-    DensityEstimateSettings caustics_estimate{}; ///< Estimate of caustics on gloss.
-    bool gloss_as_mirrors = false; ///< As in the PhotonPassSettings of the caustics
-                                   ///< map.
+    /// How caustics on glossy surfaces are estimated.
+    DensityEstimateSettings caustics_estimate{};
+    /// Whether nearly specular objects counted as mirrors when the caustics map was
+    /// made, see PhotonPassSettings::gloss_as_mirrors.
+    bool gloss_as_mirrors = false;
     bool paths = false; ///< Whether gather rays continue at diffuse surfaces as at
                         ///< glossy ones, because the general map has too few photons.
 
@@ -78,7 +81,7 @@ struct GatherLookupT {
 /// The result of a gather ray.
 template <std::floating_point T>
 struct GatherRayT {
-    RgbT<T> radiance{T(0)};                          ///< W/(m^2 sr).
+    RgbT<T> radiance{T(0)};                          ///< The radiance in W/(m^2 sr).
     T distance = std::numeric_limits<T>::infinity(); ///< Distance to the first surface,
                                                      ///< in scene units.
 };
@@ -135,7 +138,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// the light of lamps and of the caustics map is therefore added, and the ray continues
 /// in a sampled direction. With `lookup.paths` the same is done at a diffuse surface.
 /// With `lookup.gloss_as_mirrors`, the caustics map has counted the light that reaches
-/// the ray's origin by nearly_specular() surfaces. The ray then follows these surfaces
+/// the ray's origin via nearly_specular() surfaces. The ray then follows these surfaces
 /// as if they were mirrors.
 /// \param world      The closed scene.
 /// \param lookup     Irradiance points, or these with a caustics map.
@@ -192,7 +195,7 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
 /// Irradiance that was gathered at a point.
 template <std::floating_point T>
 struct GatheredT {
-    RgbT<T> irradiance{T(0)};          ///< Irradiance of indirect light alone, W/m^2.
+    RgbT<T> irradiance{T(0)}; ///< Irradiance of indirect light alone, in W/m^2.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
     /// Distance to the k-th nearest point of the cache with a similar normal, where k
@@ -200,10 +203,11 @@ struct GatheredT {
     T spacing = T(0);
 };
 
-/// Gathers the indirect irradiance at a vertex, by stratified rays with a density
-/// proportional to the cosine. At any other diffuse lobe the rays are sampled from the
-/// lobe. The result is then the irradiance of a uniform light under which the lobe,
-/// seen along `wo`, would be as bright as under the actual light:
+/// Gathers the indirect irradiance at a vertex, by stratified rays. On a Lambertian
+/// surface the density of the rays is proportional to the cosine. On any other surface
+/// the rays are sampled from the diffuse lobe. The result is then the irradiance of a
+/// uniform light under which the lobe, seen along `wo`, would be as bright as under the
+/// actual light:
 ///
 /// \f[ \pi\, \frac{\sum_i w_i L_i}{\sum_i w_i}, \quad
 /// w_i = \frac{f(\omega_o, \omega_i) |\cos\theta_i|}{p(\omega_i)}, \f]

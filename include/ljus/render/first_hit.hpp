@@ -20,8 +20,8 @@ enum class FirstHit {
     depth    ///< The distance along the ray, in scene units; no hit: 0.
 };
 
-/// Shows the first hit of each primary ray in a world, which must outlive it. Thin
-/// surfaces let rays pass by chance, as in every renderer.
+/// A renderer that shows the first hit of each primary ray. Thin surfaces let rays pass
+/// by chance, as in every renderer.
 template <typename W>
 class FirstHitRenderer {
 public:

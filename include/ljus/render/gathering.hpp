@@ -18,7 +18,8 @@ struct Gathering {
     template <std::floating_point T>
     struct State {
         IrradiancePointsT<T> points{}; ///< The points that gather rays look up.
-        IrradianceCacheT<T> cache{};   ///< Filled by PhotonMapper::fill_cache().
+        /// The cache, filled by PhotonMapper::fill_cache().
+        IrradianceCacheT<T> cache{};
     };
 };
 

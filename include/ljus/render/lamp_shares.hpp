@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/lamp_shares.hpp
-/// \brief Gives more photons to the lamps whose light contributes more to the picture.
+/// \brief Sends more photons from those lamps whose light a picture shows.
 
 #include <cmath>
 #include <vector>

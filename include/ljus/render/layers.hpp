@@ -26,7 +26,7 @@ namespace ljus {
 /// A layer with the light of some paths.
 struct PathLayer {
     std::string name{};  ///< Name of the layer, such as "caustics".
-    std::string paths{}; ///< The class of its light paths, as in
+    std::string paths{}; ///< The class of the light paths, as in
                          ///< light_path_expression().
 };
 
@@ -67,7 +67,7 @@ struct LayerSettings {
 template <std::floating_point T>
 struct RenderedLayersT {
     RenderedT<T> rendered{};         ///< The result of render(), byte for byte.
-    std::vector<LayerT<T>> layers{}; ///< In the order of LayerSettings.
+    std::vector<LayerT<T>> layers{}; ///< The layers, in the order of LayerSettings.
 };
 
 /// The layers of a picture with their names and channels, before it is rendered: all

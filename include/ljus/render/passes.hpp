@@ -17,12 +17,12 @@ namespace ljus {
 
 /// Numbers that a survey counts in a scene.
 struct SceneNeeds {
-    std::size_t objects = 0;  ///< All objects.
-    std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.
-    std::size_t specular = 0; ///< Objects with a specular lobe.
-    std::size_t narrow = 0;   ///< Objects that are nearly_specular().
-    std::size_t lights = 0;   ///< Emissive objects and point lights.
-    std::size_t fog = 0;      ///< Media that scatter light.
+    std::size_t objects = 0;  ///< Number of objects.
+    std::size_t diffuse = 0;  ///< Number of objects with a non-specular lobe.
+    std::size_t specular = 0; ///< Number of objects with a specular lobe.
+    std::size_t narrow = 0;   ///< Number of objects that are nearly_specular().
+    std::size_t lights = 0;   ///< Number of emissive objects and point lights.
+    std::size_t fog = 0;      ///< Number of media that scatter light.
     bool films = false;       ///< Whether a material is a thin surface.
 };
 

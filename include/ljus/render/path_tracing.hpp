@@ -17,10 +17,11 @@ namespace ljus {
 
 /// How paths are traced.
 struct PathTracingSettings {
-    int max_depth = 1000;      ///< Largest number of surfaces on a camera path; 1 is
-                               ///< direct light only.
-    int roulette_depth = 4;    ///< From this surface on, roulette may end a path.
-    bool sample_lights = true; ///< Whether to send shadow rays.
+    int max_depth = 1000; ///< Largest number of surfaces on a camera path; 1 is
+                          ///< direct light only.
+    /// Number of the first surface at which roulette may end a path.
+    int roulette_depth = 4;
+    bool sample_lights = true;                      ///< Whether to send shadow rays.
     MisHeuristic heuristic = MisHeuristic::balance; ///< MIS weights of light that both
                                                     ///< paths and shadow rays find.
     FogLight fog = FogLight::both; ///< How light that fog scatters is found.
@@ -40,7 +41,7 @@ inline void check(const PathTracingSettings& settings) {
             settings.roulette_max, "in (0, 1]");
 }
 
-/// A path tracer of a world, which must outlive it:
+/// A path tracer of a world. The world must outlive the tracer:
 ///
 ///     const PathTracer tracer(world, {.max_depth = 8});
 template <typename W>
@@ -197,7 +198,7 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
-/// \return Radiance, W/(m^2 sr): an unbiased estimate, if max_depth is never reached.
+/// \return Radiance, in W/(m^2 sr): an unbiased estimate if max_depth is never reached.
 /// \report{Eq. (1)}
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>

@@ -52,14 +52,10 @@ namespace ljus {
 /// Each has its own header and is listed by abilities<...>. An ability that is not
 /// listed costs nothing.
 /// \{
-
-/// IndirectLight::gather and IndirectLight::cache need this ability, which is defined
-/// in ljus/render/gathering.hpp.
+/// Needed by IndirectLight::gather and cache; see ljus/render/gathering.hpp.
 struct Gathering;
-/// SkipSettings need this ability, which is defined in ljus/render/skipping.hpp.
-struct Skipping;
-/// A CausticBudget needs this ability, which is defined in ljus/render/budgeting.hpp.
-struct Budgeting;
+struct Skipping;  ///< Needed by SkipSettings; see ljus/render/skipping.hpp.
+struct Budgeting; ///< Needed by CausticBudget; see ljus/render/budgeting.hpp.
 /// \}
 
 /// The template arguments of a renderer: its abilities, and its random stream.
@@ -109,7 +105,7 @@ requires(!Included<X> || StreamLike<X>) struct StateOf<X, T> {
     using Type = Abilities<X>; ///< No state.
 };
 
-/// The stream among some abilities; without one a RandomStream.
+/// Finds the stream in a list of abilities; a RandomStream if the list has none.
 template <typename... X>
 struct StreamAmong {
     using Type = RandomStream; ///< The default.
@@ -265,7 +261,7 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
 
 /// A remark about a caustics map of fewer than 256 photons, if the mapper has chosen
 /// the radius of its estimates.
-/// \return Empty, or with a line feed.
+/// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
                                                          float radius) {
@@ -279,7 +275,7 @@ template <std::floating_point T>
 
 /// A remark about an estimate whose radius seems to be in a wrong unit. Either hardly
 /// any estimate finds a photon, or every estimate finds all photons.
-/// \return Empty, or with a line feed.
+/// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
 radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
@@ -549,9 +545,9 @@ template <typename Mapper, std::floating_point T, Material M>
 
 /// Adds the light that a diffuse surface reflects along a camera path, except light
 /// that the path's next ray finds. Direct light comes by shadow rays, and caustics come
-/// from the caustics map. Where an indirect ray ends, the general map takes the place
-/// of the shadow rays; irradiance points take the place of the shadow rays and of the
-/// caustics map.
+/// from the caustics map. Where an indirect ray ends, the settings replace some of
+/// these: with IndirectLight::map, the general map replaces the shadow rays; otherwise
+/// irradiance points replace the shadow rays and the caustics map.
 /// \param mapper    The world, the maps, the limits.
 /// \param vertex    The surface.
 /// \param material  Its material.
@@ -688,7 +684,7 @@ inline constexpr int split_survival = 16;
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts rays and photons, logs terms.
-/// \return Radiance, W/(m^2 sr); biased by the radius of the estimates and by
+/// \return Radiance, in W/(m^2 sr); biased by the radius of the estimates and by
 ///         max_depth.
 /// \report{Sections 3.2.3, 3.2.4 and 3.2.6}
 /// \erratum{In the report's program an indirect ray that met a lamp added it again,
@@ -767,7 +763,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         branches.push_back(*other);
                         return true;
                     }
-                // Follows one branch; after a lookup, by mirrors and glass only.
+                // Follows one branch; after a lookup, via mirrors and glass only.
                 Lobes which = open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
                     if (has(which, Lobes::diffuse) && !through &&

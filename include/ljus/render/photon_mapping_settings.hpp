@@ -57,12 +57,14 @@ struct GatherSettings {
 
 /// Settings of the report's renderer. Lengths are in scene units.
 struct PhotonMappingSettings {
-    int max_depth = 1000;   ///< Largest number of surfaces on a camera path, including
-                            ///< mirrors and glass.
-    int roulette_depth = 4; ///< From this surface on, roulette may end a path.
-    int shadow_rays = 1;    ///< Shadow rays to each light, at least 1.
+    int max_depth = 1000; ///< Largest number of surfaces on a camera path, including
+                          ///< mirrors and glass.
+    /// Number of the first surface at which roulette may end a path.
+    int roulette_depth = 4;
+    int shadow_rays = 1; ///< Shadow rays to each light, at least 1.
     DirectLight direct = DirectLight::sampled; ///< How direct light is found.
-    bool split_glass = false; ///< Split paths at glass before the first matt surface.
+    /// Whether paths split at glass before the first matt surface.
+    bool split_glass = false;
     IndirectLight indirect = IndirectLight::rays; ///< Source of indirect light.
     PhotonPassSettings caustics{}; ///< Photons aimed at mirrors and glass.
     PhotonPassSettings general{};  ///< Photons for all other light.
@@ -76,8 +78,8 @@ struct PhotonMappingSettings {
     /// a disc typically holds 32 photons.
     DensityEstimateSettings caustics_estimate{};
     /// A lone caustic photon (see lone_photons()) has a disc whose radius is this
-    /// number times the radius of other discs, 1 to 1000. Ignored by estimates with the
-    /// k nearest photons.
+    /// number times the radius of other discs, 1 to 1000. Estimates with the k nearest
+    /// photons ignore it.
     float lone_radius = 1;
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
@@ -144,8 +146,8 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 
 /// The purposes for which there are ready settings.
 enum class Preset : std::uint8_t {
-    draft, ///< A first look: blotches, in a fraction of a second.
-    /// Least time without visible errors. More rays do not reduce the bias of this
+    draft, ///< For a first look: a picture with blotches, in a fraction of a second.
+    /// The least time without visible errors. More rays do not reduce the bias of this
     /// preset. Indirect light is smoothed over 4 pixels, so that dark corners are too
     /// bright, by 10 % or more within 8 pixels. Penumbras are slightly wrong. Caustics
     /// and glossy reflections are blurred.
@@ -196,7 +198,7 @@ enum class Preset : std::uint8_t {
 /// pixels around it differ. The pixel's own rays do not count, so that this choice has
 /// no bias; see render_adaptive().
 struct PresetRays {
-    int first = 1; ///< First rays of every pixel.
+    int first = 1; ///< Number of first rays of every pixel.
     int more = 0;  ///< Largest number of further rays of a pixel.
     /// If the relative standard deviation of the first rays around a pixel is at least
     /// this, the pixel gets all `more` rays. If it is smaller, the pixel gets a part of

@@ -10,7 +10,7 @@ namespace ljus {
 /// \addtogroup path_tracing
 /// \{
 
-/// A plain path tracer of a world, which must outlive it.
+/// A plain path tracer of a world. The world must outlive the tracer.
 template <typename W>
 class PlainPathTracer {
 public:
@@ -39,7 +39,7 @@ PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 
 /// The radiance that one random path finds. Each diffuse surface sends a shadow ray to
 /// one light, with equal probability for all lights. A lamp that the path meets counts
-/// only if it is seen directly or by mirrors and glass, where no shadow ray could find
+/// only if it is seen directly or via mirrors and glass, where no shadow ray could find
 /// it.
 ///
 /// The plain tracer has no MIS weights, and ignores media, thin surfaces and shading
@@ -48,7 +48,7 @@ PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 /// \param tracer   The world and the depth.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 /// \report{Eq. (1)}
 // [plain]
 template <AnyWorld W, std::floating_point T, typename Context>

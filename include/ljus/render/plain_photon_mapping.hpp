@@ -13,7 +13,8 @@ namespace ljus {
 /// \addtogroup photon_mapping
 /// \{
 
-/// A plain photon mapper: a caustics map and its world, which must outlive the mapper.
+/// A plain photon mapper: a caustics map and its world. The world must outlive the
+/// mapper.
 template <typename W>
 class PlainPhotonMapper {
 public:
@@ -57,7 +58,7 @@ PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
 /// \param mapper   World and map.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 // [plain path]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const PlainPhotonMapper<W>& mapper, RayT<T> ray,

@@ -26,8 +26,8 @@ namespace ljus {
 
 /// The mean of many passes: the plain twin of run_progressive(). Pass i has the radius
 /// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$. After n passes
-/// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and its squared
-/// bias to \f$ n^{-2(1-\alpha)} \f$.
+/// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and the squared
+/// bias of the mean to \f$ n^{-2(1-\alpha)} \f$.
 /// \param passes  n, at least 1.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
 /// \param alpha   In (0, 1]; with 1 the radius is constant.
@@ -102,14 +102,15 @@ template <std::floating_point T>
 /// passes. It is plain data; alpha and the side of blocks may be set before the first
 /// pass.
 struct ProgressiveState {
-    double alpha = 2.0 / 3; ///< In (0, 1]; see progressive_mean().
+    /// Determines how fast the radius shrinks, in (0, 1]; see progressive_mean().
+    double alpha = 2.0 / 3;
     /// Side of a block in pixels. The mean of a block gets an error of its own, because
     /// the errors of neighbouring pixels are correlated.
     int block_side = 8;
     double shrink = 1;              ///< \f$ r_i^2 / r_1^2 \f$ of the next pass.
     long long passes = 0;           ///< Number of passes in the sums.
     std::uint64_t first_pass = 0;   ///< Hash of the first pass's picture.
-    ImageT<double> sum{};           ///< Sum of the passes, W/(m^2 sr).
+    ImageT<double> sum{};           ///< Sum of the passes, in W/(m^2 sr).
     ImageT<double> squares{};       ///< Sum of squared deviations from the mean.
     ImageT<double> block_squares{}; ///< The same sum for the means of blocks.
     /// A description of the picture in the program's own words. A checkpoint keeps the
@@ -163,7 +164,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
 
 /// The picture so far.
 /// \param state  The sums of at least one pass.
-/// \return The mean of the passes, W/(m^2 sr).
+/// \return The mean of the passes, in W/(m^2 sr).
 /// \throws std::invalid_argument  if there is no pass.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> mean_image(const ProgressiveState& state) {

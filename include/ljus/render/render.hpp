@@ -32,7 +32,8 @@ struct RenderSettings {
     Progress progress = no_progress; ///< Called with (done, total); returns false to
                                      ///< stop.
     Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.
-    Filter filter = Filter::box;                  ///< Weight of each position.
+    /// Weight of a ray by its position relative to the pixel.
+    Filter filter = Filter::box;
 };
 
 namespace detail {
@@ -90,8 +91,8 @@ struct PictureRays {
 
 /// One ray of a picture.
 struct PixelRay {
-    int x = 0;      ///< Column of its pixel.
-    int y = 0;      ///< Row of its pixel.
+    int x = 0;      ///< Column of the pixel.
+    int y = 0;      ///< Row of the pixel.
     int number = 0; ///< Number of the ray within the pixel.
 };
 
@@ -120,7 +121,7 @@ template <std::floating_point T, StreamLike Stream>
 /// The result of one ray of a pixel.
 template <std::floating_point T>
 struct PixelSampleT {
-    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< Radiance of the ray, in W/(m^2 sr).
     T weight = T(1);        ///< Filter weight at the ray's position.
 };
 

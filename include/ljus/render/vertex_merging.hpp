@@ -28,7 +28,7 @@ namespace ljus {
 /// \{
 
 /// A renderer that traces light paths in its constructor and joins them to camera
-/// paths. The world must outlive it:
+/// paths. The world must outlive the renderer:
 ///
 ///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
 ///
@@ -190,7 +190,7 @@ void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& c
 /// \param merger   World and light paths.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 // [radiance]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const VertexMerger<W>& merger, const RayT<T>& ray,

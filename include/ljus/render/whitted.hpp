@@ -23,12 +23,12 @@ struct WhittedSettings {
                        ///< 1000; each is a recursive call.
     bool split_glass = true; ///< Whether both rays continue at glass, or one at random.
     bool lamps = true; ///< Whether lamps with a size send light, from their centres.
-    /// Ambient radiance, W/(m^2 sr), from all directions at every diffuse surface: a
+    /// Ambient radiance, in W/(m^2 sr), from all directions at every diffuse surface: a
     /// substitute for the light that the tree does not find.
     Rgb ambient{0};
 };
 
-/// Whitted's ray tracer of a world, which must outlive it.
+/// Whitted's ray tracer of a world. The world must outlive the tracer.
 template <typename W>
 class WhittedTracer {
 public:
@@ -140,7 +140,7 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream; counts rays, logs terms.
-/// \return Radiance, W/(m^2 sr).
+/// \return Radiance, in W/(m^2 sr).
 /// \cost Up to 2^max_depth rays, if every ray meets glass.
 /// \report{Section 2.1}
 template <AnyWorld W, std::floating_point T, typename Context>

@@ -20,7 +20,7 @@ namespace ljus {
 /// rank occurs once for each body of its material. If there are more than eight bodies,
 /// the eight of the highest ranks are kept. \cite schmidt2002
 struct BodyList {
-    std::array<std::uint8_t, 8> ranks{}; ///< In descending order; 0 after the last one.
+    std::array<std::uint8_t, 8> ranks{}; ///< The ranks in descending order, then zeros.
 
     /// The rank of the body whose medium counts; 0 outside all bodies.
     [[nodiscard]] constexpr std::uint8_t top() const noexcept { return ranks[0]; }
@@ -52,7 +52,8 @@ struct BodyList {
 /// The transparent materials of a scene in ascending order of priority. Materials of
 /// the same priority are ordered by index of refraction, then by absorption.
 struct BodyRanks {
-    std::vector<MaterialId> materials{}; ///< The material of rank r is at r - 1.
+    /// The materials; that of rank r has the index r - 1.
+    std::vector<MaterialId> materials{};
     std::vector<std::vector<std::uint8_t>>
         ranks{};              ///< The rank by a material's type and index; 0 if opaque.
     bool prioritized = false; ///< Whether any material has a priority other than 0.

@@ -35,7 +35,7 @@ struct ViewT {
     Vec3T<T> position{T(0)};            ///< The pinhole, in scene units.
     Vec3T<T> target{T(0), T(0), T(-1)}; ///< The point at the middle of the picture.
     Vec3T<T> up{T(0), T(1), T(0)}; ///< Approximate up direction; not along the view.
-    T vfov_degrees = T(45);        ///< Full vertical angle, within (0, 180).
+    T vfov_degrees = T(45);        ///< Full vertical angle in degrees, within (0, 180).
 };
 using View = ViewT<float>; ///< ViewT in float.
 

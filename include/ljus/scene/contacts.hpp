@@ -78,20 +78,21 @@ inline constexpr std::uint32_t no_contact = 0xffffffffu;
 /// Two objects that share an area or a point.
 struct Contact {
     std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
-    /// For each of the two objects, the index of its next contact in Contacts::pairs.
-    std::array<std::uint32_t, 2> next{};
+    std::array<std::uint32_t, 2>
+        next{};             ///< The next contact of each object, in Contacts::pairs.
     BoxT<double> box{};     ///< A box around the shared place.
-    bool over_area = false; ///< Whether they share an area, not only points.
-    bool alike = false;     ///< Whether their outsides are on the same side there.
-    bool opposed = false;   ///< Whether their outsides are on opposite sides there.
+    bool over_area = false; ///< Whether the objects share an area, not only points.
+    bool alike = false;     ///< Whether the outsides of both are on the same side.
+    bool opposed = false;   ///< Whether the outsides of both are on opposite sides.
 };
 
 /// An object that shares a place with others.
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
-    ContactKind kind = ContactKind::opaque; ///< The kind of its surface.
-    ContactKey key{};                       ///< A ray meets the smallest key.
-    std::uint32_t contact = no_contact;     ///< The object's first contact.
+    ContactKind kind = ContactKind::opaque; ///< The kind of the object's surface.
+    /// The key; of several surfaces, a path meets that with the smallest key.
+    ContactKey key{};
+    std::uint32_t contact = no_contact; ///< The object's first contact.
 };
 
 /// All contacts of a scene.
@@ -238,17 +239,18 @@ template <Material M>
 struct ContactObject {
     ObjectId id{};
     ContactKind kind = ContactKind::opaque;
-    std::uint32_t material = 0; ///< The number of its material.
-    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if it is not compared.
-    double area = 0;            ///< Its area; 0 if it is unknown.
+    std::uint32_t material = 0; ///< The number of the object's material.
+    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if the object is not compared.
+    double area = 0;            ///< The area of the object; 0 if unknown.
     BoxT<double> box{};
 };
 
 struct ContactSearch {
-    std::span<const ContactObject> objects; ///< In the order of types and indices.
-    double epsilon;                         ///< Machine epsilon of the precision.
+    /// The objects, in the order of types and indices.
+    std::span<const ContactObject> objects;
+    double epsilon; ///< Machine epsilon of the precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
-    /// Writes the emission and the material of an object into its key.
+    /// Writes the emission and the material of an object into a key.
     FunctionRef<void(ContactKey&, ObjectId)> put;
 };
 

@@ -27,7 +27,7 @@ template <Shape S, Material M>
 struct Placed {
     S shape;                       ///< The shape.
     M material;                    ///< The material.
-    RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, W/(m^2 sr).
+    RgbT<ScalarOf<S>> emission{0}; ///< Radiance along the normal, in W/(m^2 sr).
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 
@@ -71,13 +71,13 @@ template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
     using Shape = TypeList<S>;    ///< The type of the shape.
     using Material = TypeList<M>; ///< The type of the material.
-    using Light = TypeList<>;     ///< None.
+    using Light = TypeList<>;     ///< No type.
 };
 
 template <LightSource L>
 struct PartOf<L> {
-    using Shape = TypeList<>;    ///< None.
-    using Material = TypeList<>; ///< None.
+    using Shape = TypeList<>;    ///< No type.
+    using Material = TypeList<>; ///< No type.
     using Light = TypeList<L>;   ///< The type of the light.
 };
 
@@ -105,7 +105,7 @@ template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;
 
-/// An empty scene with these lists.
+/// An empty scene with these lists of types.
 template <typename... S, typename... M, typename... L>
 [[nodiscard]] Scene<Shapes<S...>, Materials<M...>, Lights<L...>>
 scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {

@@ -12,18 +12,18 @@
 
 namespace ljus {
 
-/// \defgroup nested_bodies Bodies in each other
+/// \defgroup nested_bodies Nested bodies
 /// \brief Transparent bodies that overlap, such as water in a glass and a bubble in the
 /// water. Chapter: \ref ch_rough_glass.
 ///
 /// Where bodies overlap, the medium of the body with the highest `priority` counts
 /// \cite schmidt2002. A path keeps a list of the bodies around it. At a surface, only
-/// the highest body before the surface and the highest body behind it count:
+/// two bodies count: those of the highest priority before and behind the surface.
 ///
 /// | these bodies  | the surface                                                    |
 /// |---------------|----------------------------------------------------------------|
 /// | are the same  | is ignored: paths, photons and shadow rays go straight on      |
-/// | are different | is one boundary, with the relative index of the two bodies     |
+/// | are different | is a boundary, with the relative index of the two bodies       |
 ///
 /// Water may therefore extend a little into its glass, and a bubble, of index 1, may
 /// stick out of the water. Priorities are used if any material of the scene has a
@@ -35,9 +35,10 @@ namespace ljus {
 /// The boundary that a path crosses if it passes through a surface.
 template <std::floating_point T>
 struct CrossingT {
-    SceneHitT<T> hit{};   ///< The surface, chosen from all that coincide at the hit.
-    BodyList before{};    ///< The bodies before the surface.
-    BodyList behind{};    ///< The bodies behind it; unchanged if it is opaque or thin.
+    SceneHitT<T> hit{}; ///< The surface, chosen from all surfaces in the place.
+    BodyList before{};  ///< The bodies before the surface.
+    /// The bodies behind the surface; unchanged if it is opaque or thin.
+    BodyList behind{};
     bool hidden = false;  ///< Whether the surface is ignored.
     bool entered = false; ///< Whether the surface belongs to the body behind it.
 

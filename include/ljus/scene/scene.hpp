@@ -65,17 +65,18 @@ inline constexpr std::uint32_t no_light = 0xffffffffu;
 /// The properties of an object, except its shape.
 template <std::floating_point T>
 struct ObjectT {
-    MaterialId material{};          ///< Its material.
-    RgbT<T> emission{T(0)};         ///< Radiance on the side of the normal, W/(m^2 sr).
-    bool inside_out = false;        ///< Whether the normal points inwards.
-    std::uint32_t light = no_light; ///< Its number among the lights of a World.
+    MaterialId material{};   ///< The material.
+    RgbT<T> emission{T(0)};  ///< Radiance on the side of the normal, in W/(m^2 sr).
+    bool inside_out = false; ///< Whether the normal points inwards.
+    /// The object's number among the lights of a World.
+    std::uint32_t light = no_light;
 };
 
 /// An object or a light, as an element of Scene::order.
 struct AddedId {
     std::uint32_t type = 0;  ///< Position in Shapes<...> or in Lights<...>.
     std::uint32_t index = 0; ///< Index in that type's array.
-    bool is_light = false;   ///< Whether it is a light, not an object.
+    bool is_light = false;   ///< True for a light, false for an object.
 };
 
 namespace detail {
@@ -84,7 +85,7 @@ namespace detail {
 /// last type.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
-/// type_number for at least two types.
+/// The case of at least two types.
 template <typename X, typename First, typename Second, typename... List>
 inline constexpr std::uint32_t type_number<X, First, Second, List...> =
     std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
@@ -172,7 +173,7 @@ public:
 private:
     std::list<P> kept_; // a list, because its elements are never moved
 };
-/// For shapes that refer to nothing.
+/// The case of shapes that refer to nothing.
 template <>
 class Prototypes<void> {
 public:
@@ -231,13 +232,13 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     static constexpr bool lists_fog = sizeof...(P) > 0;
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
-        shapes; ///< An array per type.
+        shapes; ///< The shapes, an array per type.
     /// The properties of each shape, in the order of `shapes`. The emission is the
     /// argument of add(), without that of the material.
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
-    std::tuple<std::vector<M>...> materials; ///< An array per type.
-    std::tuple<std::vector<L>...> lights;    ///< An array per type.
-    std::tuple<std::vector<P>...> media;     ///< An array per type.
+    std::tuple<std::vector<M>...> materials; ///< The materials, an array per type.
+    std::tuple<std::vector<L>...> lights;    ///< The lights, an array per type.
+    std::tuple<std::vector<P>...> media;     ///< The media, an array per type.
     std::vector<AddedId> order; ///< Objects and lights, in the order of addition.
     /// The meshes of instances. A scene with instances can be moved, not copied.
     detail::Prototypes<Prototype> prototypes;
@@ -267,7 +268,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     /// \param shape       The shape, of a listed type.
     /// \param material    The number that add() returned for the material.
     /// \param radiance    The radiance that the shape emits on the side of its normal,
-    ///                    W/(m^2 sr), in addition to the emission of the material.
+    ///                    in W/(m^2 sr). The emission of the material is added to it.
     /// \param inside_out  Whether the normal points inwards, as in a room made of a
     ///                    sphere.
     /// \return The number of the object.
@@ -324,7 +325,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                       "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Reports, at compile time, an unlisted shape or a material instead of its number.
+    /// Reports, at compile time, an unlisted shape, or a material in place of its
+    /// number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");

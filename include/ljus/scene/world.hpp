@@ -140,10 +140,11 @@ template <typename Compute, std::floating_point T, typename S>
 /// The types that a list of lights has within a World.
 template <typename LightList>
 struct KeptLights;
-/// One array per type.
+/// For a list with one array per type of light.
 template <typename... L>
 struct KeptLights<std::tuple<std::vector<L>...>> {
-    using Type = std::tuple<std::vector<InSceneT<L>>...>; ///< An array per type.
+    /// The same arrays, with each light as a World stores it.
+    using Type = std::tuple<std::vector<InSceneT<L>>...>;
 };
 
 /// Whether a type is a Scene.
@@ -241,9 +242,9 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may be in an absorbing body. The point is tested against the
-    /// bounding box of all such bodies or, with fog or priorities, of all transparent
-    /// bodies.
+    /// Whether a point may be in an absorbing body: whether the point lies in the
+    /// bounding box of all such bodies. In a scene with fog or priorities, the box is
+    /// that of all transparent bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
@@ -280,7 +281,7 @@ public:
     /// The number of lights, including emissive objects. Lights are numbered in the
     /// order in which they were added.
     [[nodiscard]] std::size_t light_count() const noexcept { return lights_.size(); }
-    /// The flux of each light, W.
+    /// The flux of each light, in W.
     [[nodiscard]] const auto& powers() const noexcept { return powers_; }
     /// The distribution of the lights by power.
     [[nodiscard]] const LightChoice& light_choice() const noexcept { return choice_; }
@@ -360,12 +361,12 @@ public:
         });
     }
 
-    /// As Scene::any_shape().
+    /// See Scene::any_shape().
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return S::any_shape(f);
     }
-    /// As Scene::any_material().
+    /// See Scene::any_material().
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
@@ -381,7 +382,7 @@ public:
     }
     /// Whether a material of the scene has holes.
     [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
-    /// As Scene::any_light().
+    /// See Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
         return S::any_light(f);
@@ -681,7 +682,8 @@ inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
 /// If a ray meets more holes than this in one object, it misses the object.
 inline constexpr int max_holes = 1000;
 
-/// The first hit of a ray on a shape that is not in a hole of the shape's material.
+/// The first hit of a ray on a shape. A hit in a hole of the shape's material does not
+/// count.
 /// \cost One more intersection and one more look-up in the mask for each hole.
 // [solid_hit]
 template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
@@ -719,7 +721,7 @@ template <AnyWorld W, typename F>
     }
 }
 
-/// As hit_of(), for an object of a scene. A point in a hole is not a hit.
+/// Does the same as hit_of(), for an object of a scene. A point in a hole is not a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
                                                  const RayT<T>& ray, const G& shape) {
@@ -731,7 +733,7 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
     });
 }
 
-/// As is_met(), for an object of a scene.
+/// Does the same as is_met(), for an object of a scene.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
                                 const G& shape) {
@@ -768,8 +770,8 @@ using WorldRef = Ref<typename detail::Closed<W>::Type>;
 template <std::floating_point T>
 struct PlaceHitT {
     SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
-    MaterialId left = no_body;    ///< The material of a body that ends there.
-    MaterialId entered = no_body; ///< The material of a body that begins there.
+    MaterialId left = no_body;    ///< The material of a body that ends at the hit.
+    MaterialId entered = no_body; ///< The material of a body that begins at the hit.
     T depth = T(0); ///< The largest distance of the other surfaces, in scene units.
 };
 

@@ -41,7 +41,7 @@ CameraT<T> furnace_camera() {
 
 /// A furnace inside the sphere of radius 1 around the origin. Its only lamp is the wall
 /// itself.
-/// \param emission  Emission of the wall, W/(m^2 sr).
+/// \param emission  Emission of the wall, in W/(m^2 sr).
 /// \param albedo    Albedo of the wall, below 1.
 /// \return The scene, and a camera inside.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not
@@ -57,7 +57,7 @@ template <std::floating_point T>
 
 /// A furnace inside the cube of side 2 around the origin. Near an edge the glowing
 /// walls are so close that only multiple importance sampling bounds the noise.
-/// \param emission  Emission of the walls, W/(m^2 sr).
+/// \param emission  Emission of the walls, in W/(m^2 sr).
 /// \param albedo    Albedo of the walls, below 1.
 /// \return The scene, and a camera inside.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not

@@ -38,7 +38,7 @@ public:
         std::size_t count = 0;                   ///< Number of children.
     };
 
-    /// Computes the costs of a tree, which must outlive this object.
+    /// Computes the costs of a tree. The tree must outlive this object.
     /// \cost O(n) for n nodes; 56 bytes per node.
     explicit BvhCollapse(const BvhNodesT<T>& tree)
         : tree_(tree), cost_(tree.nodes.size()) {
@@ -117,17 +117,18 @@ private:
 /// A node with up to eight children. The boxes of the children are stored coordinate by
 /// coordinate \cite wald2008.
 struct Bvh8Node {
-    std::array<Lanes, 6> plane;                  ///< Low x, y, z, then high x, y, z.
-    std::array<std::uint32_t, lane_count> child; ///< Encoded as in Bvh8Child.
+    /// The planes of the boxes: low x, y, z, then high x, y, z.
+    std::array<Lanes, 6> plane;
+    /// The children, encoded as in Bvh8Child.
+    std::array<std::uint32_t, lane_count> child;
 };
 /// The encoding of a child in 32 bits. An inner node is encoded as its position in the
 /// array of nodes, in units of Lanes. A leaf is encoded as its first slot and its
 /// number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    /// The lowest of the four bits that hold the number of primitives minus 1.
-    static constexpr int count_shift = 27;
-    /// The bits that hold the first slot of a leaf.
+    static constexpr int count_shift = 27;          ///< The lowest bit of count - 1.
+    /// The bits of the slot.
     static constexpr std::uint32_t first = (1u << count_shift) - 1;
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
@@ -141,7 +142,7 @@ struct Bvh8Child {
 /// leaves. Coordinates are relative to the centre of the tree's box, so that a scene
 /// far from the origin loses no precision.
 struct Bvh8Nodes {
-    GrowingArray<Bvh8Node> nodes{}; ///< Empty for an empty tree.
+    GrowingArray<Bvh8Node> nodes{}; ///< The nodes; none in an empty tree.
     std::vector<std::uint32_t>
         primitive_ids{}; ///< The index of the primitive at each slot, or padding.
     Box box{};           ///< The box around all primitives.

@@ -17,16 +17,17 @@ namespace ljus::detail {
 
 /// A ray prepared for wide nodes.
 struct Bvh8Ray {
-    Vec3 inverse{1};    ///< 1 over the direction, made finite.
-    Vec3 near_shift{0}; ///< The ray meets a near plane at plane * inverse - near_shift.
-    Vec3 far_shift{0};  ///< The ray meets a far plane at plane * inverse - far_shift.
-    /// For each axis, the index of the plane of a box that the ray meets first.
+    Vec3 inverse{1};    ///< 1 over the direction; finite also where the direction is 0.
+    Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
+    Vec3 far_shift{0};  ///< The same for far planes.
+    /// For each axis, the plane that the ray meets first.
     std::array<std::size_t, 3> near{};
-    /// For each axis, the index of the plane of a box that the ray meets last.
+    /// For each axis, the plane that the ray meets last.
     std::array<std::size_t, 3> far{};
-    float length = 0;      ///< The direction's largest absolute component.
-    float last = 0;        ///< The largest t that is searched.
-    bool moderate = false; ///< Whether a product of three such lengths is finite.
+    float length = 0; ///< The direction's largest absolute component.
+    float last = 0;   ///< The largest t that is searched.
+    /// Whether products of three lengths are finite, as in the tests of triangles.
+    bool moderate = false;
 };
 
 /// Prepares a ray. The two shifts enlarge the boxes by the margin of box_ray(). A

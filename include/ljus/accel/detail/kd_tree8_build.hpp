@@ -48,7 +48,7 @@ struct KdTree8Shape {
     int halvings = 0;         ///< Number of halvings from the root to a leaf.
     int levels = 0;           ///< Number of levels of nodes.
     std::array<std::uint32_t, 12>
-        first{}; ///< Index of the first node of each level, then the number of nodes.
+        first{}; ///< The index of each level's first node, then the number of nodes.
 
     /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
@@ -104,7 +104,7 @@ struct KdTree8ItemT {
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
-    using Item = KdTree8ItemT<T>;                 ///< The type of its elements.
+    using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
     /// Pieces that were read. Other lists of the same thread use them again, because

@@ -22,7 +22,7 @@ namespace ljus::detail {
 template <std::floating_point T, typename Visit>
 struct WithinT {
     static constexpr bool nearest_first = false;
-    ReachT<T> reach; ///< The limit.
+    ReachT<T> reach; ///< The limit of the search.
     Visit visit;     ///< Called for each leaf that has points within reach.
 
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
@@ -35,7 +35,8 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;                ///< Points nearer than the nearest point so far.
+    /// The limit: it excludes the distance of the nearest point so far.
+    ReachT<T> reach;
     std::optional<Neighbor> best{}; ///< The nearest point so far.
 
     bool leaf(const KdTree8PartsT<T>& tree, const Vec3T<T>& center, std::size_t first,
@@ -149,7 +150,7 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;        ///< About the k-th distance so far.
+    ReachT<T> reach;        ///< The limit: about the k-th distance so far.
     Wanted& wanted;         ///< Whether a point counts.
     const std::size_t k;    ///< Number of points wanted.
     std::size_t enough = k; ///< Number of candidates at which the reach is shortened.
@@ -211,7 +212,7 @@ struct NearestCountedT {
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< Points nearer than the k-th nearest point so far.
+    ReachT<T> reach; ///< The limit: it excludes the k-th distance so far.
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest points so far.
 

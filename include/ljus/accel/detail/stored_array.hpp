@@ -31,7 +31,7 @@ inline void give_back_memory() noexcept {
 
 /// Memory from std::malloc(), and an aligned address in it.
 struct AlignedMemory {
-    static constexpr std::size_t alignment = 32; ///< In bytes.
+    static constexpr std::size_t alignment = 32; ///< The alignment in bytes.
     char* start = nullptr;                       ///< The result of malloc().
     char* place = nullptr;                       ///< The first aligned address.
 

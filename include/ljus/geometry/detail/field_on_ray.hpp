@@ -55,13 +55,13 @@ concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
 /// surface \cite hart1996.
 struct SphereTracing {
     double tolerance = 1e-9; ///< The largest |f| at a hit.
-    int max_steps = 2000;    ///< After this number of steps the ray misses.
+    int max_steps = 2000;    ///< Number of steps after which the ray counts as a miss.
 };
 
 /// A solver that halves the ray until each interval either cannot contain the surface
 /// or contains exactly one crossing \cite mitchell1990.
 struct Bisection {
-    int max_parts = 4096; ///< After this number of intervals the ray misses.
+    int max_parts = 4096; ///< Number of intervals after which the ray counts as a miss.
 };
 
 namespace detail {

@@ -29,9 +29,9 @@ namespace ljus {
 /// \f$ w (1 - r^2/R^2)^2 \f$ for r < R, and 0 beyond.
 template <std::floating_point T>
 struct BlobT {
-    Vec3T<T> center{T(0)}; ///< C, in scene units.
-    T radius = T(1);       ///< R, where the field ends, above 0, in scene units.
-    T weight = T(1);       ///< w; a negative weight removes volume.
+    Vec3T<T> center{T(0)}; ///< The centre C, in scene units.
+    T radius = T(1);       ///< The radius R at which the field ends, above 0.
+    T weight = T(1);       ///< The weight w; a negative weight removes volume.
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 
@@ -57,9 +57,9 @@ template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
     C leave = C(0);  ///< The t at which s becomes negative again.
-    C middle = C(0); ///< m, the t at which the ray is nearest to the blob's centre.
-    C height = C(0); ///< h = 1 - (p/R)^2; p is the distance from the centre at t = m.
-    C bend = C(0);   ///< k: the squared length of the ray's direction over R^2.
+    C middle = C(0); ///< m, the t at which the ray is nearest to the centre.
+    C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
+    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
     C weight = C(1); ///< w, the weight of the blob.
 };
 
@@ -92,7 +92,7 @@ template <std::floating_point T>
 template <std::floating_point C>
 struct StrandsT {
     std::array<StrandT<C>, 16> few; ///< Holds all strands if there are at most 16.
-    std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more.
+    std::vector<StrandT<C>> many{}; ///< Holds all strands if there are more than 16.
     std::size_t count = 0;          ///< Number of strands.
     void add(const StrandT<C>& strand) {
         if (count < few.size())
@@ -113,8 +113,8 @@ template <std::floating_point C>
 struct MetaballLineT {
     std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
     C level = C(0);                        ///< L, the level of the surface.
-    C enter = C(0);                        ///< Where the first strand begins.
-    C leave = C(-1);                       ///< Where the last strand ends.
+    C enter = C(0);                        ///< The t at which the first strand begins.
+    C leave = C(-1);                       ///< The t at which the last strand ends.
 
     [[nodiscard]] C value(C t) const noexcept {
         C sum = -level;
@@ -177,8 +177,8 @@ private:
     }
 };
 
-/// Makes the field along a ray from its strands. The result refers to `strands`, which
-/// must outlive it.
+/// Makes the field along a ray from its strands. The result refers to `strands`, and
+/// must not be used after `strands` is destroyed.
 /// \return The field. If there are no strands, `leave` is below `enter`.
 template <std::floating_point C>
 [[nodiscard]] MetaballLineT<C> line_of(const StrandsT<C>& strands, C level) noexcept {
@@ -193,7 +193,7 @@ template <std::floating_point C>
 
 template <std::floating_point T>
 struct QuarticRootsT {
-    std::array<T, 4> at{}; ///< The first `count` are roots.
+    std::array<T, 4> at{}; ///< The roots: the first `count` elements.
     std::size_t count = 0; ///< Number of roots.
     [[nodiscard]] const T* begin() const noexcept { return at.data(); }
     [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
@@ -253,9 +253,10 @@ template <std::floating_point T>
 
 /// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a).
 ///
-/// On [a, b] the Bernstein coefficients of a strand's \f$ s = h - k\tau^2 \f$, with
-/// \f$ \tau = t - m \f$, are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$.
-/// The coefficients of s^2 are sums of products of these.
+/// The field of a strand is w s^2 with \f$ s = h - k (t - m)^2 \f$, see StrandT. Let
+/// \f$ \tau_a = a - m \f$ and \f$ \tau_b = b - m \f$. On [a, b] the Bernstein
+/// coefficients of s are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$. The
+/// coefficients of s^2 are sums of products of these.
 /// \param line  The field along the ray.
 /// \param a     Start of the span.
 /// \param b     End of the span. No strand begins or ends between a and b.

@@ -20,8 +20,10 @@ namespace ljus::detail {
 
 template <std::floating_point T>
 struct FlatShapesT {
-    std::vector<QuadT<T>> quads; ///< Pairs, in the order of their second triangles.
-    std::vector<TriangleT<T>> triangles; ///< The others, in the order of the input.
+    /// Pairs of triangles, in the order of their second triangles.
+    std::vector<QuadT<T>> quads;
+    /// The triangles without a partner, in the order of the input.
+    std::vector<TriangleT<T>> triangles;
 };
 
 /// Joins two triangles if they share an edge, face the same side and form a

@@ -22,11 +22,11 @@ template <std::floating_point T, KernelLike<T> K = Kernel>
 struct FluxDiscT {
     Vec3T<T> center{T(0)};             ///< The centre.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal of the surface.
-    /// A normal on one side of the surface; only photons that arrive there count.
+    /// Unit normal of the side on which photons count.
     Vec3T<T> from{T(0), T(0), T(1)};
-    T radius = T(1);               ///< In scene units, between 1e-15 and 1e15.
-    T thickness = T(0.5);          ///< Half the height over the radius.
-    K kernel{};                    ///< The weight by distance.
+    T radius = T(1);      ///< The radius in scene units, between 1e-15 and 1e15.
+    T thickness = T(0.5); ///< Half the height of the disc over the radius.
+    K kernel{};           ///< The weight by distance.
     PhotonKinds kinds = all_kinds; ///< The kinds of photons that count.
 };
 

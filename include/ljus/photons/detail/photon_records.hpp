@@ -23,7 +23,7 @@ namespace ljus::detail {
 template <std::floating_point T>
 struct PhotonRecordT {
     Vec3T<T> direction{T(0)};             ///< Unit direction of travel.
-    RgbT<T> flux{T(0)};                   ///< W.
+    RgbT<T> flux{T(0)};                   ///< The flux in W.
     std::uint16_t light = 0;              ///< Index of the light.
     PhotonKind kind = PhotonKind::direct; ///< The kind.
     SmallNormal normal{0};                ///< Normal of the surface.
@@ -34,7 +34,7 @@ struct PhotonRecordT {
 template <std::floating_point T>
 struct RecordBlockT {
     Lanes3T<T> direction;            ///< Unit directions of travel.
-    Lanes3T<T> flux;                 ///< W.
+    Lanes3T<T> flux;                 ///< The flux in W.
     std::uint16_t light[lane_count]; ///< Indices of the lights.
     std::uint32_t code[lane_count];  ///< Kinds and normals; see RecordCode.
     std::uint32_t unused[4];         ///< 0, so that saved maps have defined bytes.

@@ -130,7 +130,7 @@ private:
     std::vector<std::uint64_t> keys_;
 };
 
-/// Bricks with the bits of their cells.
+/// The bricks of a grid, with bits for the verdicts of their cells.
 template <std::floating_point T>
 struct VerdictBitsT {
     CellsT<T> cells{};      ///< Geometry of the cells.
@@ -195,8 +195,10 @@ template <std::floating_point T>
 
 /// A counted photon.
 struct Witness {
-    std::uint32_t where = 0; ///< 64 times its brick's index plus its cell's index.
-    bool shadow = false;     ///< Whether it is a shadow photon.
+    /// The photon's cell: 64 times the index of the brick plus the index within the
+    /// brick.
+    std::uint32_t where = 0;
+    bool shadow = false; ///< True for a shadow photon, false for a direct one.
 };
 
 /// Finds the cells of photons, and inserts their bricks into the table of a grid.
