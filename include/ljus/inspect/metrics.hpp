@@ -250,13 +250,14 @@ template <std::floating_point T>
     return result;
 }
 
-/// How far the block means of several runs are from a reference, in their own standard
-/// errors: where noise is all, most are below 3; see chance_beyond().
+/// The difference between the block means of several runs and those of a reference, in
+/// standard errors of the runs' mean. If the runs differ from the reference by noise
+/// only, most of these numbers are below 3; see chance_beyond().
 /// \param runs       At least 2 pictures of the same size, with independent seeds.
-/// \param reference  The reference, of that size, without noise.
+/// \param reference  A picture of the same size, without noise.
 /// \param size       Side of a block in pixels, at least 1.
-/// \return At least 0; three numbers for each block, row by row. Infinity for a
-///         difference without noise.
+/// \return For each block, row by row, one number of at least 0 per channel. Infinity
+///         if the pictures differ, but the runs do not.
 /// \throws std::invalid_argument  as block_statistics().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] std::vector<double> block_deviations(const std::vector<ImageT<T>>& runs,

@@ -265,8 +265,9 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
         scene.add(part.mesh, material, radiance);
 }
 
-/// What add_meshes() makes of a material if the scene lists what that takes, such as
-/// "matt (0.5, 0.5, 0.5), picture wood.png".
+/// Describes the material that add_meshes() makes of a file's material, such as
+/// "matt (0.5, 0.5, 0.5), picture wood.png". A scene that lists fewer types of material
+/// gets a simpler one.
 [[nodiscard, gnu::cold]] inline std::string to_text(const MeshMaterial& is) {
     std::string text = is.is_glass()    ? "glass of index " + to_text(is.index)
                        : is.is_mirror() ? "mirror of " + to_text(Vec3(is.specular))
@@ -283,9 +284,9 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
     return text;
 }
 
-/// The content of a mesh file as text: what was read, what add_meshes() makes of it,
-/// and each problem with its place in the file.
-/// \return Lines that end with a line feed.
+/// Describes the content of a mesh file: the numbers of its elements, the materials
+/// that add_meshes() makes, and each problem with its position in the file.
+/// \return Lines of text. Each ends with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string to_text(const LoadedMeshT<T>& loaded) {
     const MeshContent& has = loaded.report.content;
