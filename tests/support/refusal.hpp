@@ -11,15 +11,16 @@
 
 namespace ljus_test {
 
-/// The sentence with which a call is refused; empty if it is not.
-template <std::invocable Call>
-std::string refusal(Call call) {
+/// The sentence with which a call is refused.
+/// \param otherwise  What is returned if it is not.
+template <typename Error = std::invalid_argument, std::invocable Call>
+std::string refusal(Call call, const char* otherwise = "") {
     try {
         call();
-    } catch (const std::invalid_argument& error) {
+    } catch (const Error& error) {
         return error.what();
     }
-    return "";
+    return otherwise;
 }
 
 /// Why a call cannot read a file, behind "cannot read 'a.pfm': "; "loaded" if it can.
