@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "support/closed_forms.hpp"
+
 namespace ljus_test {
 
 /// A point light above a ball above a floor, all on one axis.
@@ -30,13 +32,6 @@ struct BallCaustic {
     /// The largest alpha that meets the ball.
     [[nodiscard]] double last() const { return std::asin(radius / light); }
 
-    /// Unpolarised Fresnel reflectance from the two cosines.
-    [[nodiscard]] double fresnel(double ci, double ct) const {
-        const double s = (ci - index * ct) / (ci + index * ct);
-        const double p = (index * ci - ct) / (index * ci + ct);
-        return (s * s + p * p) / 2;
-    }
-
     /// The path of one ray.
     struct Arrival {
         bool lands = false; ///< False if it goes up.
@@ -48,7 +43,7 @@ struct BallCaustic {
     [[nodiscard]] Arrival trace(double alpha, int k) const {
         const double si = std::sin(alpha) * light / radius;
         const double ti = std::asin(si), tt = std::asin(si / index);
-        const double f = fresnel(std::cos(ti), std::cos(tt));
+        const double f = fresnel_share(std::cos(ti), 1, index);
         const double exit = ti - alpha + (k + 1) * (std::numbers::pi - 2 * tt);
         const double way = exit + ti;
         Arrival result;
