@@ -17,6 +17,7 @@
 #include <ljus/inspect/metrics.hpp>
 #include <ljus/ljus.hpp>
 
+#include "support/box_sides.hpp"
 #include "support/seed.hpp"
 
 namespace along {
@@ -38,13 +39,8 @@ auto room() {
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.75f}});
     const auto red = scene.add(Lambertian{.albedo{0.75f, 0.25f, 0.2f}});
     const auto blue = scene.add(Lambertian{.albedo{0.25f, 0.35f, 0.75f}});
-    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 4}, corner{-1, -1, -1};
-    scene.add(Quad{corner, z, x}, white);
-    scene.add(Quad{corner + y, x, z}, white);
-    scene.add(Quad{corner, x, y}, white);
-    scene.add(Quad{corner + z, y, x}, white);
-    scene.add(Quad{corner, y, z}, red);
-    scene.add(Quad{corner + x, z, y}, blue);
+    ljus_test::add_room(scene, {-1, -1, -1}, {1, 1, 3},
+                        {white, white, white, white, red, blue});
     scene.add(Quad{{-0.15f, 1, -0.15f}, {0.3f, 0, 0}, {0, 0, 0.3f}}, white, Rgb{50});
     scene.add(Sphere{.center{-0.45f, -0.6f, -0.4f}, .radius = 0.4f},
               scene.add(Mirror{}));

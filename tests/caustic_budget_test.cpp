@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "ljus/inspect/survey.hpp"
-#include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
@@ -22,6 +21,7 @@
 #include "ljus/render/budgeting.hpp"
 #include "ljus/scene/scene.hpp"
 #include "support/ball_caustic.hpp"
+#include "support/box_sides.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 #include "support/seed.hpp"
@@ -38,7 +38,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 using Room = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Glass, Mirror>,
-                   Lights<PointLight, SunLight>>;
+                   Lights<PointLight>>;
 
 void add_floor(Room& room, float half = 50) {
     room.add(Quad{.corner{-half, -1, -half},
@@ -86,20 +86,12 @@ Room two_balls(float left_index, float right_index, float albedo) {
     Room room;
     const auto walls = room.add(Lambertian{.albedo = Rgb{albedo}});
     const float s = 3;
-    room.add(Quad{.corner{-s, 0, -s}, .edge_u{0, 0, 2 * s}, .edge_v{2 * s, 0, 0}},
-             room.add(Lambertian{.albedo = Rgb{0.5f}}));
-    if (albedo > 0) {
-        room.add(Quad{.corner{-s, 5, -s}, .edge_u{2 * s, 0, 0}, .edge_v{0, 0, 2 * s}},
-                 walls);
-        room.add(Quad{.corner{-s, 0, -s}, .edge_u{2 * s, 0, 0}, .edge_v{0, 5, 0}},
-                 walls);
-        room.add(Quad{.corner{-s, 0, s}, .edge_u{0, 5, 0}, .edge_v{2 * s, 0, 0}},
-                 walls);
-        room.add(Quad{.corner{-s, 0, -s}, .edge_u{0, 5, 0}, .edge_v{0, 0, 2 * s}},
-                 walls);
-        room.add(Quad{.corner{s, 0, -s}, .edge_u{0, 0, 2 * s}, .edge_v{0, 5, 0}},
-                 walls);
-    }
+    const auto floor = room.add(Lambertian{.albedo = Rgb{0.5f}});
+    if (albedo > 0)
+        ljus_test::add_room(room, {-s, 0, -s}, {s, 5, s},
+                            {floor, walls, walls, walls, walls, walls});
+    else
+        room.add(Quad{{-s, 0, -s}, {0, 0, 2 * s}, {2 * s, 0, 0}}, floor);
     for (const auto& [x, index] :
          {std::pair{-1.0f, left_index}, std::pair{1.0f, right_index}})
         room.add(Sphere{.center{x, 0.8f, 0}, .radius = 0.5f},
@@ -189,26 +181,6 @@ TEST_CASE("caustic_budget: any shares give the same light") {
                           .photons));
         CHECK(std::abs(apart(found, k == 0 ? ball_flux() : mirror_flux(), 2e-3)) < 5);
     }
-}
-
-TEST_CASE("caustic_budget: a share is the share of the photons") {
-    const World room(ball_and_mirror());
-    const std::vector shares{0.3, 0.7};
-    const auto traced =
-        trace_photons(room, MapType::caustics,
-                      {.photons = 100000, .seed = test_seed(5), .shares = shares});
-    double far = 0; // the mirror's photons land at 12 and beyond
-    for (const Photon& photon : traced.photons)
-        if (photon.position.x > 10) far += 1;
-    // One in ten is absorbed; a few that the ball reflects land there as well.
-    CHECK(far == doctest::Approx(0.9 * 70000).epsilon(0.01));
-    // The pilot knows the flux of each.
-    const auto pilots = pilot_caustics(
-        room, PhotonPassSettings{.photons = 400000, .seed = test_seed(3)}, 0.05f);
-    REQUIRE(pilots.size() == 2);
-    CHECK(pilots[0].object == specular_objects(room)[0]);
-    CHECK(pilots[0].flux == doctest::Approx(ball_flux()).epsilon(0.05));
-    CHECK(pilots[1].flux == doctest::Approx(mirror_flux()).epsilon(0.05));
 }
 
 TEST_CASE("caustic_budget: no shares are the photons of old, byte by byte") {
@@ -747,27 +719,6 @@ TEST_CASE("caustic_budget: what cannot be is refused, and extremes are none") {
     CHECK(caustic_shares(CausticBudget::flux, {}).empty());
     PhotonMappingSettings settings{.caustic_budget = CausticBudget::brightness};
     CHECK(PhotonMapper(world, settings, abilities<Budgeting>).maps().caustics.empty());
-    // A sun, a spot and a lamp: their photons by any shares make the same light.
-    Room lights;
-    add_floor(lights);
-    lights.add(Sphere{.center{-1, 1, 0}, .radius = 0.5f}, lights.add(Glass{}));
-    lights.add(Sphere{.center{1, 1, 0}, .radius = 0.3f},
-               lights.add(Mirror{.reflectance = Rgb{0.8f}}));
-    lights.add(SunLight{.direction{0.1f, -1, 0}, .irradiance = Rgb{2}});
-    lights.add(Quad{.corner{-1, 4, -1}, .edge_u{2, 0, 0}, .edge_v{0, 0, 2}},
-               lights.add(Lambertian{.albedo = Rgb{0}}), Rgb{3});
-    const World lights_world(std::move(lights));
-    std::array<Mean, 2> means;
-    for (std::uint64_t seed = 1; seed <= 16; ++seed)
-        for (const std::size_t i : {0u, 1u})
-            means[i].add(
-                power(trace_photons(lights_world, MapType::caustics,
-                                    {.photons = 20000,
-                                     .seed = test_seed(seed + 100 * i),
-                                     .shares = i == 0 ? std::vector<double>{}
-                                                      : std::vector<double>{0.8, 0.2}})
-                          .photons));
-    CHECK(std::abs(apart(means[0], means[1])) < 4); // 1 in 2500 with 30 degrees
     // The plan says what is shared out, and by what.
     settings.caustic_budget = CausticBudget::area;
     CHECK(survey(room, settings)

@@ -541,71 +541,13 @@ double window_light(double x, double z) {
     return 2 / (d2 * std::sqrt(d2));
 }
 
-/// The slope of a line through points, by least squares.
-double slope(const std::vector<glm::dvec2>& points) {
-    glm::dvec2 middle(0);
-    for (const auto& p : points) middle += p / double(points.size());
-    double xy = 0, xx = 0;
-    for (const auto& p : points) {
-        xy += (p.x - middle.x) * (p.y - middle.y);
-        xx += (p.x - middle.x) * (p.x - middle.x);
-    }
-    return xy / xx;
-}
-
 } // namespace
-
-TEST_CASE("caustics: variance falls with 1/(N r^2), squared bias grows with r^4") {
-    const Room room = window();
-    const double exact = window_light(0, 0);
-    // Small discs for the variance: of a large one the photons that lie in it for
-    // certain are a part. Of each map the light of all discs is read, and the bias is
-    // that of all photons together.
-    const std::vector<float> small{0.05f, 0.1f, 0.2f}, large{0.35f, 0.5f, 0.7f};
-    std::array<double, 3> sums{}; // of the large discs, by photons
-    double all_photons = 0;
-    const auto variances = [&](long long count) {
-        std::array<Mean, 3> means;
-        for (std::uint64_t seed = 1; seed <= 1200; ++seed) {
-            const PhotonMap map = make_photon_map(
-                caustic_photons(room, count, 2000 * std::uint64_t(count) + seed));
-            for (std::size_t i = 0; i < 3; ++i) {
-                means[i].add(irradiance(map, Vec3{0}, {.radius = small[i]}));
-                sums[i] +=
-                    double(count) * irradiance(map, Vec3{0}, {.radius = large[i]});
-            }
-            all_photons += double(count);
-        }
-        std::array<double, 3> found;
-        for (std::size_t i = 0; i < 3; ++i)
-            found[i] = means[i].squares / (means[i].count - 1);
-        return found;
-    };
-    std::vector<glm::dvec2> by_count, by_radius, bias;
-    for (const long long count : {250LL, 2000LL})
-        by_count.emplace_back(std::log(double(count)), std::log(variances(count)[2]));
-    const auto in_small = variances(1000);
-    for (std::size_t i = 0; i < 3; ++i) {
-        by_radius.emplace_back(std::log(double(small[i])), std::log(in_small[i]));
-        const double difference = sums[i] / all_photons - exact;
-        bias.emplace_back(std::log(double(large[i])),
-                          std::log(difference * difference));
-    }
-    // The slopes have standard errors of 0.03, 0.04 and 0.2; the last one is 3.9, since
-    // the largest disc is wide.
-    CAPTURE(slope(by_count));
-    CAPTURE(slope(by_radius));
-    CAPTURE(slope(bias));
-    CHECK(slope(by_count) == doctest::Approx(-1).epsilon(0.15));
-    CHECK(std::abs(slope(by_radius) + 2) < 0.25);
-    CHECK(std::abs(slope(bias) - 4) < 1);
-}
 
 TEST_CASE("caustics: with an edge in the picture the best error falls with N^(-1/3)") {
     // A strip across the edge. Bias there is O(1) in a band as wide as r: MSE is about
     // a r + b / (N r^2), the best r goes with N^(-1/3), and so does the MSE.
     const Room room = window();
-    std::vector<glm::dvec2> best;
+    std::vector<double> log_count, log_error;
     for (const long long count : {500LL, 4000LL, 32000LL}) {
         std::vector<double> error;
         std::vector<float> radii;
@@ -628,10 +570,11 @@ TEST_CASE("caustics: with an edge in the picture the best error falls with N^(-1
         const auto least = std::min_element(error.begin(), error.end());
         CHECK(least != error.begin());
         CHECK(least != error.end() - 1);
-        best.emplace_back(std::log(double(count)), std::log(*least));
+        log_count.push_back(std::log(double(count)));
+        log_error.push_back(std::log(*least));
     }
-    CAPTURE(slope(best));
-    CHECK(std::abs(slope(best) + 1.0 / 3) < 0.05);
+    const double found = ljus_test::slope(log_count, log_error);
+    CHECK(std::abs(found + 1.0 / 3) < 0.05);
 }
 
 TEST_CASE("caustics: both ways at the first glass are one way in the mean") {

@@ -15,6 +15,7 @@
 
 #include "ljus/optics/fresnel.hpp"
 #include "support/draws.hpp"
+#include "support/refusal.hpp"
 
 using ljus_test::Draws;
 
@@ -142,14 +143,11 @@ TEST_CASE_TEMPLATE("conductor: a share for every index and angle, 0 among them",
 }
 
 TEST_CASE("conductor: an index below 0 or of NaN is refused by name") {
-    const auto message = [](float n, float k) -> std::string {
-        try {
+    const auto message = [](float n, float k) {
+        return ljus_test::refusal([&] {
             ljus::detail::require_conductor(
                 "metal.index", ljus::ConductorIndex{ljus::Rgb{n}, ljus::Rgb{k}});
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+        });
     };
     CHECK(message(0.2f, 3).empty());
     CHECK(message(-1, 3).find("metal.index.n") == 0);

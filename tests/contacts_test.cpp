@@ -31,9 +31,10 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/plain_path_tracing.hpp"
 #include "support/mean.hpp"
+#include "support/slabs.hpp"
 
 using namespace ljus;
-using ljus_test::Mean, ljus_test::mean_radiance;
+using namespace ljus_test;
 
 namespace {
 
@@ -46,13 +47,6 @@ using Everything =
 using Rolling = Scene<
     Shapes<Quad, Sphere, Cylinder, Moving<Quad>, Moving<Sphere>, Moving<Cylinder>>,
     Materials<Lambertian, Glass>>;
-
-/// A rectangle in a plane of constant z, around the z axis; it faces up or down.
-template <typename T>
-QuadT<T> face(T z, bool up, T half = T(50)) {
-    const Vec3T<T> x{2 * half, 0, 0}, y{0, 2 * half, 0}, corner{-half, -half, z};
-    return up ? QuadT<T>{corner, x, y} : QuadT<T>{corner, y, x};
-}
 
 /// The faces of a box, outwards, as triangles in a mesh.
 template <typename T>
@@ -75,50 +69,7 @@ MeshT<T> box_mesh(const Vec3T<T>& low, const Vec3T<T>& high) {
     return MeshT<T>(data);
 }
 
-/// A ray to the origin from 5 above it, at an angle to the z axis.
-template <typename T>
-RayT<T> ray_at(double degrees) {
-    const double a = degrees * std::numbers::pi / 180;
-    const Vec3T<T> way{T(std::sin(a)), T(0), T(-std::cos(a))};
-    return {.origin = T(-5 / std::cos(a)) * way, .direction = way};
-}
-
-/// Fresnel's reflectance of unpolarised light between two indices, for a ray that has
-/// an angle in air.
-double reflectance(double n1, double n2, double degrees) {
-    const double s = std::sin(degrees * std::numbers::pi / 180);
-    const double c1 = std::sqrt(1 - s * s / (n1 * n1));
-    const double c2 = std::sqrt(1 - s * s / (n2 * n2));
-    const double rs = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
-    const double rp = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
-    return (rs * rs + rp * rp) / 2;
-}
-
-/// The transmittance of parallel boundaries, with all reflections between them but
-/// without interference: adding one boundary of reflectance F to a stack of T gives
-/// 1/T + F/(1 - F).
-double transmittance_of(const std::vector<double>& indices, double degrees) {
-    double inverse = 1;
-    for (std::size_t i = 1; i < indices.size(); ++i) {
-        const double f = reflectance(indices[i - 1], indices[i], degrees);
-        inverse += f / (1 - f);
-    }
-    return 1 / inverse;
-}
-
-/// The transmittance of bodies before a lamp of radiance 1.
-/// \param scene  The bodies; gets the lamp.
-template <typename T, typename S>
-Mean seen_through_scene(S scene, double degrees, long long paths = 20000) {
-    scene.add(face(T(-5), true, T(500)), scene.add(LambertianT<T>{RgbT<T>{0}}),
-              RgbT<T>{1});
-    const World world(std::move(scene));
-    const PathTracer tracer(world, {.roulette_depth = 1000});
-    return mean_radiance(tracer, paths, 7,
-                         [&](const auto&) { return ray_at<T>(degrees); });
-}
-
-/// The same of a stack of slabs, which add(scene) makes.
+/// What a ray sees of a lamp behind slabs, which add(scene) makes.
 template <typename T>
 Mean seen_through(const std::function<void(Everything<T>&)>& add, double degrees,
                   long long paths = 20000) {

@@ -9,6 +9,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 #include "support/seed.hpp"
@@ -98,10 +99,7 @@ TEST_CASE_TEMPLATE("direct light: lamps give their closed forms", T, float, doub
                           .edge_u{T(2), T(0), T(0)},
                           .edge_v{T(0), T(0), T(1)}},
                  black, RgbT<T>{T(3)});
-        const double x = 1 / height, y = 0.5 / height;
-        const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
-        const double factor =
-            4 / (2 * pi) * (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry));
+        const double factor = 4 * ljus_test::form_factor_of_corner(1, 0.5, height);
         const Mean seen = direct(room, ray, LambertianT<T>{}, 40000, counts);
         CHECK(std::abs(apart(seen, 0.5 * 3 * factor, 1e-4)) < limit);
     }
@@ -266,9 +264,8 @@ TEST_CASE("direct light: of all lights, by several rays each") {
     const RayT<double> ray{.origin{0, 0.5, 0}, .direction{0, -1, 0}};
     const auto at = vertex_at(world, ray, *closest_hit(world, ray));
     const LambertianT<double> matt{.albedo = D3{0.5}};
-    // A square of side 2, 3 above: four corners (Howell's C-11).
-    const double x = 1.0 / 3, r = std::sqrt(1 + x * x);
-    const double factor = 4 / (2 * pi) * 2 * (x / r * std::atan(x / r));
+    // A square of side 2, 3 above.
+    const double factor = 4 * ljus_test::form_factor_of_corner(1, 1, 3);
     const D3 right = 0.5 * (D3{8, 4, 2} / 4.0 / pi + factor * D3{3, 2, 1});
     double spread[2] = {};
     for (const int rays : {1, 4, 16}) {

@@ -25,7 +25,9 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/world.hpp"
+#include "support/box_sides.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
 #include "support/student.hpp"
@@ -74,18 +76,6 @@ double least(double low, double high, F f) {
         (f(a) < f(b) ? high : low) = f(a) < f(b) ? b : a;
     }
     return f((low + high) / 2);
-}
-
-/// A box of quads whose normals point outwards.
-template <typename S>
-void add_box(S& scene, const Vec3& low, const Vec3& high, MaterialId material) {
-    const Vec3 e = high - low, x{e.x, 0, 0}, y{0, e.y, 0}, z{0, 0, e.z};
-    scene.add(Quad{low, x, z}, material);
-    scene.add(Quad{low + y, z, x}, material);
-    scene.add(Quad{low, y, x}, material);
-    scene.add(Quad{low + z, x, y}, material);
-    scene.add(Quad{low, z, y}, material);
-    scene.add(Quad{low + x, y, z}, material);
 }
 
 /// The mean of a function of the index over wavelengths, for each channel.
@@ -369,8 +359,8 @@ TEST_CASE("dispersion: bodies that touch have the ratio of their indices at the 
     Room room;
     const auto plain = room.add(Glass{.index = 1.5f});
     const auto flint = room.add(DispersiveGlass{.law = sf66<float>});
-    add_box(room, {-1, 0, -1}, {1, 1, 1}, plain);
-    add_box(room, {-1, -1, -1}, {1, 0, 1}, flint);
+    ljus_test::add_block(room, {-1, 0, -1}, {1, 1, 1}, plain);
+    ljus_test::add_block(room, {-1, -1, -1}, {1, 0, 1}, flint);
     const World world(std::move(room));
     for (const float y : {0.5f, -0.5f}) {
         PathState path{
@@ -427,7 +417,7 @@ TEST_CASE("dispersion: a plate transmits each channel by its own indices") {
         const auto flint =
             room.add(DispersiveGlass{.law = sf66<float>, .absorption = absorption});
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
-        add_box(room, {-50, -50, 0}, {50, 50, 0.1f}, flint);
+        ljus_test::add_block(room, {-50, -50, 0}, {50, 50, 0.1f}, flint);
         room.add(Quad{{-90, -90, -1}, {180, 0, 0}, {0, 180, 0}}, black, Rgb{1});
         const World world(std::move(room));
         const PathTracer tracer(world, {.sample_lights = false});
@@ -545,13 +535,8 @@ TEST_CASE("dispersion: photons keep account of the flux that a wavelength moves"
 }
 
 TEST_CASE("dispersion: what is not possible is said") {
-    const auto refusal = [](const auto& glass) -> std::string {
-        try {
-            check(glass);
-        } catch (const std::invalid_argument& e) {
-            return e.what();
-        }
-        return "";
+    const auto refusal = [](const auto& glass) {
+        return ljus_test::refusal([&] { check(glass); });
     };
     CHECK(refusal(DispersiveGlass{.law = bk7<float>}).empty());
     CHECK(refusal(DispersiveGlassT<float, Cauchy>{.law = {1.4f, 0.01f}}).empty());

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 
@@ -38,12 +39,8 @@ Image row_of(const std::vector<Rgb>& pixels) {
 }
 
 std::string refusal_of(const std::string& path) {
-    try {
-        (void)load_exr(path);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "accepted";
+    return ljus_test::refusal<std::runtime_error>([&] { (void)load_exr(path); },
+                                                  "accepted");
 }
 
 void require_bits(float a, float b) {

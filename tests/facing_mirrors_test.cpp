@@ -9,7 +9,7 @@
 
 #include <ljus/ljus.hpp>
 
-#include "support/seed.hpp"
+#include "support/mean.hpp"
 
 namespace {
 
@@ -76,20 +76,9 @@ TEST_CASE("facing_mirrors: roulette keeps the mean of 40 reflections") {
     const ljus::World world(hall(reflectance));
     const ljus::PathTracer tracer(world, {.roulette_depth = 4});
     const double exact = std::pow(0.95, 40);
-    constexpr int paths = 20000;
-    double sum = 0, squares = 0;
-    for (int i = 0; i < paths; ++i) {
-        ljus::RandomStream stream = ljus::random_stream(
-            ljus_test::test_seed(3), ljus::Pass::camera, 0, static_cast<unsigned>(i));
-        ljus::Counts counts;
-        auto context = ljus::context_of(stream, counts);
-        const double seen = double(radiance(tracer, ray_of<float>(40), context).x);
-        sum += seen;
-        squares += seen * seen;
-    }
-    const double mean = sum / paths;
-    const double error = std::sqrt((squares / paths - mean * mean) / paths);
+    const auto seen = ljus_test::mean_radiance(tracer, 20000, 3,
+                                               [](auto&) { return ray_of<float>(40); });
     // A false alarm once in 15 000 seeds; 20 further ones were tried.
-    CHECK(std::abs(mean - exact) <= 4 * error);
-    CHECK(error < 0.05 * exact);
+    CHECK(std::abs(apart(seen, exact)) <= 4);
+    CHECK(seen.error() < 0.05 * exact);
 }

@@ -9,6 +9,7 @@
 
 #include "ljus/io/file.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 #if __has_include(<sys/resource.h>)
 #include <cerrno>
@@ -41,12 +42,8 @@ ljus::Bytes bytes_of(const std::string& text) {
 }
 
 std::string message_of_save(const std::string& path, const ljus::Bytes& bytes) {
-    try {
-        ljus::save_file(path, bytes);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "saved";
+    return ljus_test::refusal<std::runtime_error>([&] { ljus::save_file(path, bytes); },
+                                                  "saved");
 }
 
 } // namespace

@@ -27,6 +27,8 @@
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/box_sides.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 #include "support/student.hpp"
@@ -589,7 +591,7 @@ TEST_CASE("final gathering: what a gather ray brings, along a known way") {
 
 TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     // A square of side 2 at height 1, each point of which sends albedo E / pi: its form
-    // factor by Howell's C-11, four corners. 20 000 random rays would know it to 0.6 %,
+    // factor is that of four corners. 20 000 random rays would know it to 0.6 %,
     // stratified ones to 0.2 %. And the harmonic mean of the lengths, 1 / cos, of those
     // that meet it.
     Hall hall;
@@ -599,7 +601,7 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
              hall.add(Lambertian{.albedo{0.8f, 0.5f, 0.2f}}));
     const World world(std::move(hall));
     const IrradiancePoints points = everywhere(Rgb{3, 5, 7}, {{0, 0, -1}, {0, 0, 1}});
-    const double r = std::sqrt(2.0), factor = 4 / (2 * pi) * 2 / r * std::atan(1 / r);
+    const double factor = 4 * form_factor_of_corner(1, 1, 1);
     for (const bool above : {true, false})
         for (const int rays : {20000, 1}) {
             const Ray ray{.origin{0, 0, above ? 0.5f : -0.5f},
@@ -1332,12 +1334,7 @@ TEST_CASE("final gathering: a white room with a glossy wall") {
     Chamber scene;
     const auto white = scene.add(Lambertian{.albedo = Rgb{0.7f}});
     const auto gloss = scene.add(Glossy{.reflectance = Rgb{0.9f}, .roughness = 0.15f});
-    scene.add(Quad{{-1, -1, -1}, {0, 0, 2}, {2, 0, 0}}, white);
-    scene.add(Quad{{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}}, white);
-    scene.add(Quad{{-1, -1, -1}, {0, 2, 0}, {0, 0, 2}}, gloss);
-    scene.add(Quad{{1, -1, -1}, {0, 0, 2}, {0, 2, 0}}, white);
-    scene.add(Quad{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}}, white);
-    scene.add(Quad{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}}, white);
+    add_room(scene, Vec3{-1}, Vec3{1}, {white, white, white, white, gloss, white});
     scene.add(Quad{{-0.4f, -0.4f, -0.4f}, {0, 0, 0.8f}, {0, 0.8f, 0}}, white, Rgb{5});
     const World world(std::move(scene));
     const auto wall = [](auto& stream) {
@@ -1443,13 +1440,7 @@ TEST_CASE("final gathering: a strong lamp that is sealed in lights nothing outsi
         Chamber room;
         const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
-        const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
-        room.add(Quad{{-1, -1, -1}, z, x}, grey);
-        room.add(Quad{{-1, 1, -1}, x, z}, grey);
-        room.add(Quad{{-1, -1, -1}, x, y}, grey);
-        room.add(Quad{{-1, -1, 1}, y, x}, grey);
-        room.add(Quad{{-1, -1, -1}, y, z}, grey);
-        room.add(Quad{{1, -1, -1}, z, y}, grey);
+        add_room(room, Vec3{-1}, Vec3{1}, {grey, grey, grey, grey, grey, grey});
         room.add(Sphere{{0.2f, -0.7f, 0}, 0.2f}, grey);
         room.add(Sphere{{0.2f, -0.7f, 0}, 0.1f}, black, Rgb{sealed});
         room.add(Quad{{-0.3f, 0.98f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}}, black,

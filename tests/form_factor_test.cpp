@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "support/form_factor_facing.hpp"
+#include "support/closed_forms.hpp"
 #include "support/numbers.hpp"
 
 using ljus::Facet;
@@ -243,16 +243,10 @@ TEST_CASE("exchange_area: edges that are nearly parallel, and edges without a le
 
 TEST_CASE("form_factor: from a point, by Lambert") {
     const V up{0, 0, 1};
-    // A square above: four times the corner's factor, Howell's C-11.
-    const auto corner = [](double a, double b, double c) {
-        const double x = a / c, y = b / c;
-        const double sx = std::sqrt(1 + x * x), sy = std::sqrt(1 + y * y);
-        return (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy)) / 2 /
-               std::numbers::pi;
-    };
     const Facet roof = rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0});
-    CHECK(form_factor_at({}, up, roof) ==
-          doctest::Approx(4 * corner(1, 1, 2)).epsilon(1e-14));
+    CHECK(
+        form_factor_at({}, up, roof) ==
+        doctest::Approx(4 * ljus_test::form_factor_of_corner(1, 1, 2)).epsilon(1e-14));
     CHECK(form_factor_at({}, up, ljus::detail::turned(roof)) == 0);
     CHECK(form_factor_at({}, -up, roof) == 0);
     // A cube around the point, which stands on no wall: below its horizon nothing

@@ -496,20 +496,6 @@ double scatter_under_lamp(const Point& at, double radius) {
     return pi * squares - radius * radius * mean * mean;
 }
 
-/// The slope of a line through points, by least squares.
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-    double mx = 0, my = 0, xy = 0, xx = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        mx += x[i] / double(x.size());
-        my += y[i] / double(x.size());
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        xy += (x[i] - mx) * (y[i] - my);
-        xx += (x[i] - mx) * (x[i] - mx);
-    }
-    return xy / xx;
-}
-
 } // namespace
 
 TEST_CASE("general map: variance falls with 1/(N r^2), bias^2 grows with r^4, and the "
@@ -644,78 +630,6 @@ TEST_CASE("general map: no light, no photons, one photon, a scene of glass") {
     CHECK(none.photons.empty());
     CHECK(none.audit.emitted.x > 0);
     CHECK_FALSE(survey(glass_world, {.keep_general_map = true}).general_map.on);
-}
-
-TEST_CASE("general map: a lamp in a closed box lights the box, and all else is in its "
-          "shadow") {
-    BallRoom room;
-    add_walls(room);
-    add_ball(room, Ball::lambertian);
-    const auto grey = room.add(Lambertian{.albedo = Rgb{0.5f}});
-    const Vec3 low{-0.8f, 0.3f, -0.8f};
-    const Vec3 x{0.3f, 0, 0}, y{0, 0.3f, 0}, z{0, 0, 0.3f};
-    for (const auto& [corner, u, v] :
-         {std::tuple{low, x, y}, std::tuple{low, y, z}, std::tuple{low, z, x},
-          std::tuple{low + x, y, z}, std::tuple{low + y, z, x},
-          std::tuple{low + z, x, y}})
-        room.add(Quad{.corner = corner, .edge_u = u, .edge_v = v}, grey);
-    room.add(PointLight{.position = low + 0.5f * (x + y + z), .intensity = Rgb{1}});
-    const World world(std::move(room));
-    const auto traced =
-        trace_photons(world, MapType::general, {.photons = 3000, .threads = 1});
-    int inside = 0;
-    for (const Photon& photon : traced.photons) {
-        const Vec3 p = glm::abs(photon.position - low - 0.5f * (x + y + z));
-        const bool in_box = max_component(p) < 0.1501f;
-        REQUIRE(in_box == (photon.kind != PhotonKind::shadow));
-        inside += in_box ? 1 : 0;
-    }
-    CHECK(inside > 4000);
-    // Straight on, each photon meets the room's wall, some the ball before (twice).
-    CHECK(census(traced.photons)[PhotonKind::shadow].photons >= 3000);
-}
-
-namespace {
-
-/// The box above, `scale` times as large and moved.
-template <typename T>
-PhotonCensus census_of_box(double scale, double offset) {
-    BallRoomT<T> scene;
-    for (const Rectangle& wall : box_walls())
-        scene.add(QuadT<T>{.corner = Vec3T<T>(scale * (wall.corner + offset)),
-                           .edge_u = Vec3T<T>(scale * wall.u),
-                           .edge_v = Vec3T<T>(scale * wall.v)},
-                  scene.add(LambertianT<T>{.albedo = RgbT<T>{T(wall.albedo)}}),
-                  RgbT<T>{T(wall.emitted)});
-    const World closed(std::move(scene));
-    return census(
-        trace_photons(closed, MapType::general, {.photons = 2000, .threads = 1})
-            .photons);
-}
-
-} // namespace
-
-TEST_CASE("general map: the size of a scene and its place do not matter") {
-    const PhotonCensus one = census_of_box<float>(1, 0);
-    for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
-        const PhotonCensus other = census_of_box<float>(scale, 0);
-        CAPTURE(scale);
-        for (const PhotonKind kind : {PhotonKind::direct, PhotonKind::indirect}) {
-            // Rounding at an edge may change the path of a photon or two.
-            CHECK(double(other[kind].photons) ==
-                  doctest::Approx(double(one[kind].photons)).epsilon(0.01));
-            CHECK(other[kind].flux.x ==
-                  doctest::Approx(scale * scale * one[kind].flux.x).epsilon(0.01));
-        }
-    }
-    const PhotonCensus far = census_of_box<double>(1, 1e6);
-    CHECK(double(far[PhotonKind::direct].photons) == 2000);
-    CHECK(double(far[PhotonKind::indirect].photons) ==
-          doctest::Approx(double(one[PhotonKind::indirect].photons)).epsilon(0.05));
-    // In float a step is 1/16 there: photons may slip out at the edges, but no more.
-    const PhotonCensus coarse = census_of_box<float>(1, 1e6);
-    CHECK(coarse[PhotonKind::direct].photons <= 2000);
-    CHECK(std::isfinite(coarse[PhotonKind::direct].flux.x));
 }
 
 TEST_CASE("general map: what the presets ask for") {
@@ -929,12 +843,6 @@ TEST_CASE("general map: which maps are made for what, and which photons they kee
     // Whoever stops a pass has maps that are not complete.
     const auto stop = [](long long, long long) { return false; };
     CHECK_FALSE(make([&](auto& s) {
-                    s.caustics.photons = 3000;
-                    s.caustics.progress = stop;
-                })
-                    .maps()
-                    .complete);
-    CHECK_FALSE(make([&](auto& s) {
                     s.general.progress = stop;
                     s.indirect = IndirectLight::gather;
                 })
@@ -1082,28 +990,11 @@ TEST_CASE("general map: how caustic photons are shared out, by which light") {
                                         settings.general_estimate.radius)));
 }
 
-TEST_CASE("general map: a mapper's radii, and the maps that it asks") {
+TEST_CASE("general map: which maps a path asks") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     PhotonMappingSettings settings{.indirect = IndirectLight::photons};
     settings.caustics = {.photons = 2000, .threads = 1};
     settings.general = {.photons = 2000, .threads = 1};
-    PhotonMapper changed(room, settings);
-    const auto& maps = changed.maps();
-    for (const float caustics : {0.0f, 0.2f})
-        for (const float general : {0.0f, 0.4f}) {
-            settings.caustics_estimate.radius = caustics;
-            settings.general_estimate.radius = general;
-            changed.set_estimates(settings.caustics_estimate,
-                                  settings.general_estimate);
-            const PhotonMapper made(room, settings);
-            for (const PhotonMappingSettings& how :
-                 {made.settings(), changed.settings()}) {
-                CHECK(how.caustics_estimate.radius ==
-                      (caustics > 0 ? caustics : typical_radius(maps.caustics, 32)));
-                CHECK(how.general_estimate.radius ==
-                      (general > 0 ? general : typical_radius(maps.general, 64)));
-            }
-        }
     // At a matt surface: one query of each map that there is, and is asked for.
     const auto queries = [&](IndirectLight indirect, bool with_caustics) {
         PhotonMappingSettings how{.max_depth = 1, .indirect = indirect};

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "ljus/materials/glossy.hpp"
@@ -362,24 +360,15 @@ TEST_CASE("irradiance cache: it equals path tracing, block by block") {
             add(render(mapper, camera, picture).image, mapped, all_mapped);
         }
         CAPTURE(int(ball));
-        double squared = 0, largest = 0, worst = 1;
+        double squared = 0;
         CHECK(chance_of(all_mapped, all_traced, 0.01 * all_traced.mean) > 1e-7);
         for (std::size_t i = 0; i < blocks; ++i) {
             CAPTURE(i);
             const double right = traced[i].mean;
             const double error = std::hypot(mapped[i].error(), traced[i].error());
             squared += error * error / (right * right) / blocks;
-            largest = std::max(largest, std::abs(mapped[i].mean / right - 1));
-            const double chance = chance_of(mapped[i], traced[i], 0.04 * right);
-            worst = std::min(worst, chance);
-            CHECK(chance > 1e-7);
+            CHECK(chance_of(mapped[i], traced[i], 0.04 * right) > 1e-7);
         }
-        if (std::getenv("SHOW"))
-            std::printf("ball %d: %+.4f+-%.4f, blocks +-%.4f, largest %.4f, %.1e\n",
-                        int(ball), all_mapped.mean / all_traced.mean - 1,
-                        std::hypot(all_mapped.error(), all_traced.error()) /
-                            all_traced.mean,
-                        std::sqrt(squared), largest, worst);
         CHECK(squared < 0.02 * 0.02); // it is a comparison
     }
 }

@@ -13,6 +13,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 
@@ -40,12 +41,8 @@ bool same(const LightMap& a, const LightMap& b) {
 }
 
 std::string why_not(const std::string& path) {
-    try {
-        (void)load_light_map(path, {});
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "it was read";
+    return ljus_test::refusal<std::runtime_error>(
+        [&] { (void)load_light_map(path, {}); }, "it was read");
 }
 
 /// Light that grows evenly over the unit square.

@@ -19,6 +19,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scene/world.hpp"
+#include "support/closed_forms.hpp"
 #include "support/numbers.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
@@ -204,20 +205,14 @@ TEST_CASE("light: a room made of a lamp gives pi L everywhere in it") {
 }
 
 TEST_CASE("light: a square lamp above, by the form factor to a small element") {
-    // An element under the corner of an a x b rectangle at height c, parallel to it.
-    const auto corner = [](double a, double b, double c) {
-        const double x = a / c, y = b / c;
-        return (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
-                y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
-               (2 * pi);
-    };
     for (const float height : {0.1f, 1.0f, 10.0f}) {
         const World scene(make_scene(placed(
             Quad{{-1, height, -1}, {2, 0, 0}, {0, 0, 2}}, Lambertian{}, Rgb{1})));
         CAPTURE(height);
         REQUIRE(normal(std::get<0>(scene.shapes())[0]) == Vec3{0, -1, 0});
         CHECK(irradiance(scene, Vec3{0}, Vec3{0, 1, 0}, 200000)
-                  .agrees_with(4 * pi * corner(1, 1, double(height))));
+                  .agrees_with(4 * pi *
+                               ljus_test::form_factor_of_corner(1, 1, double(height))));
         // Its back is dark.
         CHECK(irradiance(scene, Vec3{0, height + 1, 0}, Vec3{0, -1, 0}, 100).mean == 0);
     }
@@ -268,18 +263,6 @@ TEST_CASE("light: a spot light is a point light within its cone, fades and ends"
     }
 }
 
-TEST_CASE("light: a sun emits alike on all, from one side") {
-    const World scene(make_scene(SunLight{.direction{0, -2, 0}, .irradiance = Rgb{3}},
-                                 placed(Sphere{.radius = 5}, Lambertian{})));
-    for (const Vec3 at : {Vec3{0}, Vec3{5, 0, 0}, Vec3{0, 5, 0}, Vec3{0, -5, 0}}) {
-        const auto s = sample_light(scene, 0, at, Vec2{0.5f});
-        REQUIRE(s);
-        CHECK(s->wi == Vec3{0, 1, 0});
-        CHECK(s->weight == Rgb{3});
-        CHECK(s->point.position.y > 5); // its shadow ray leaves the scene
-    }
-}
-
 TEST_CASE("light: a spot or a sun that makes no sense is refused in a sentence") {
     Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<SpotLight, SunLight>> scene;
     const float nan = std::nanf("");
@@ -290,14 +273,6 @@ TEST_CASE("light: a spot or a sun that makes no sense is refused in a sentence")
     CHECK_THROWS_AS(scene.add(SpotLight{.position{nan, 0, 0}}), std::invalid_argument);
     CHECK_THROWS_AS(scene.add(SpotLight{.intensity = Rgb{-1}}), std::invalid_argument);
     CHECK_THROWS_AS(scene.add(SpotLight{.intensity = Rgb{nan}}), std::invalid_argument);
-    for (const float angle : {0.0f, -1.0f, 181.0f, nan})
-        CHECK_THROWS_AS(
-            scene.add(SpotLight{.inner_degrees = 0, .outer_degrees = angle}),
-            std::invalid_argument);
-    for (const float angle : {-1.0f, 31.0f, nan})
-        CHECK_THROWS_AS(
-            scene.add(SpotLight{.inner_degrees = angle, .outer_degrees = 30}),
-            std::invalid_argument);
     CHECK_THROWS_AS(scene.add(SunLight{.direction = Vec3{0}}), std::invalid_argument);
     CHECK_THROWS_AS(scene.add(SunLight{.irradiance = Rgb{-1}}), std::invalid_argument);
     scene.add(SunLight{.irradiance = Rgb{0}}); // dark: no light
@@ -395,16 +370,23 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
         check(SpotLight{
             .intensity = Rgb{1}, .inner_degrees = inner, .outer_degrees = outer});
     };
-    CHECK_NOTHROW(spot(0, 180));
-    CHECK_NOTHROW(spot(180, 180));
-    CHECK_NOTHROW(spot(20, 20));
-    CHECK_THROWS_AS(spot(0, 180.1f), std::invalid_argument);
-    CHECK_THROWS_AS(spot(20.1f, 20), std::invalid_argument);
-    CHECK_THROWS_AS(spot(-0.1f, 20), std::invalid_argument);
-    CHECK_THROWS_AS(spot(0, 0), std::invalid_argument);
     // The flux of a cone of 1e-30 degrees is 0 in float, and its density infinite.
-    CHECK_THROWS_AS(spot(0, 1e-30f), std::invalid_argument);
-    CHECK_NOTHROW(spot(0.001f, 0.001f));
+    const float nan = std::nanf("");
+    for (const auto& [inner, outer] :
+         {std::pair{0.0f, 180.0f}, {180, 180}, {20, 20}, {0.001f, 0.001f}})
+        CHECK_NOTHROW(spot(inner, outer));
+    for (const auto& [inner, outer] : {std::pair{0.0f, 180.1f},
+                                       {20.1f, 20},
+                                       {-0.1f, 20},
+                                       {nan, 20},
+                                       {0, 0},
+                                       {0, 1e-30f},
+                                       {0, -1},
+                                       {0, nan}}) {
+        CAPTURE(inner);
+        CAPTURE(outer);
+        CHECK_THROWS_AS(spot(inner, outer), std::invalid_argument);
+    }
     for (int axis = 0; axis < 3; ++axis)
         for (const float length : {1e-30f, -1.0f, 3e38f}) {
             Vec3 way{0}, unit{0};
@@ -413,8 +395,6 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
             CHECK(detail::unit_along("way", way) == unit);
             CHECK_NOTHROW(check(SpotLight{.direction = way, .intensity = Rgb{1}}));
         }
-    CHECK_THROWS_AS(check(SpotLight{.direction = Vec3{0}, .intensity = Rgb{1}}),
-                    std::invalid_argument);
 }
 
 TEST_CASE("light: a spot's photons go where its intensity is, angle by angle") {

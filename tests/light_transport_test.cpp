@@ -17,6 +17,7 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/closed_forms.hpp"
 #include "support/numbers.hpp"
 #include "support/refusal.hpp"
 #include "support/seed.hpp"
@@ -178,12 +179,9 @@ TEST_CASE(
 }
 
 TEST_CASE("light_transport: g is 1/r^2 where points see each other, and else 0") {
-    // A point below the corner of a lamp of a x b at height h: a closed form for the
-    // share of its hemisphere that it fills, cosine included.
-    const double a = 0.8, b = 0.5, h = 0.6, x = a / h, y = b / h;
-    const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
-    const double share = (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) /
-                         (2 * std::numbers::pi);
+    // A point below the corner of a lamp.
+    const double a = 0.8, b = 0.5, h = 0.6;
+    const double share = ljus_test::form_factor_of_corner(a, b, h);
     const QuadT<double> lamp{.corner{0, h, 0}, .edge_u{a, 0, 0}, .edge_v{0, 0, b}};
     // A screen at half the height hides the half of the lamp with x above a / 2.
     const QuadT<double> screen{

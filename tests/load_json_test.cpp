@@ -21,6 +21,7 @@
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/scene/world.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 
@@ -76,12 +77,8 @@ LoadedScene read(const std::string& text, const ReadMeshes& meshes = no_meshes,
 // The sentence with which a text is refused.
 std::string refusal(const std::string& text, const ReadMeshes& meshes = no_meshes,
                     const std::string& file = "a.json") {
-    try {
-        (void)read(text, meshes, file);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "accepted";
+    return ljus_test::refusal<std::runtime_error>(
+        [&] { (void)read(text, meshes, file); }, "accepted");
 }
 
 std::string refusal(const std::string& from, const std::string& to) {
@@ -830,13 +827,9 @@ TEST_CASE("load_json: a goniometric light and a textured lamp are those of C++")
               .starts_with(
                   "a.json: lights[0].file cannot be used: cannot read 'none.ies'"));
     const std::string washer = R"("file": "wall_washer.ies")";
-    const auto why = [&](const std::string& source) -> std::string {
-        try {
-            (void)read_json_scene(source, LJUS_TEST_INPUTS "/a.json");
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+    const auto why = [&](const std::string& source) {
+        return ljus_test::refusal<std::runtime_error>(
+            [&] { (void)read_json_scene(source, LJUS_TEST_INPUTS "/a.json"); });
     };
     CHECK(why(one(R"("direction": [0, 0, 2], )" + washer))
               .ends_with("lights[0] cannot be used: goniometric light.reference is "

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 
 #include "ljus/io/load_obj.hpp"
 #include "ljus/io/png.hpp"
@@ -12,6 +11,7 @@
 #include "ljus/scene/world.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 #if __has_include(<sys/stat.h>)
 #include <sys/stat.h>
@@ -69,16 +69,24 @@ std::string obj_text(const MeshData& data) {
 }
 
 std::string message(const std::string& text, const MeshFileSettings& settings = {}) {
-    try {
-        (void)read_obj(text, "x.obj", settings);
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "nothing";
+    return ljus_test::refusal<std::exception>(
+        [&] { (void)read_obj(text, "x.obj", settings); }, "nothing");
 }
 
 MeshCount trouble(const std::string& text, MeshTrouble which) {
     return read_obj(text, "x.obj").report[which];
+}
+
+/// At how many corners two meshes differ.
+int differences(const MeshData& a, const MeshData& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto j = a.triangles[i][k], l = b.triangles[i][k];
+            count += a.positions[j] != b.positions[l] ||
+                     glm::distance(a.normals[j], b.normals[l]) >= 1e-6f;
+        }
+    return count;
 }
 
 double volume(const Mesh& mesh) {
@@ -120,16 +128,7 @@ TEST_CASE("load_obj: what is written is read again, to the last bit") {
     const MeshData& again = loaded.parts[0].mesh.data();
     REQUIRE(again.triangles.size() == data.triangles.size());
     CHECK(again.positions.size() == data.positions.size());
-    int other = 0;
-    for (std::size_t i = 0; i < data.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto a = data.triangles[i][k], b = again.triangles[i][k];
-            other += data.positions[a] == again.positions[b] &&
-                             glm::length(data.normals[a] - again.normals[b]) < 1e-6f
-                         ? 0
-                         : 1;
-        }
-    CHECK(other == 0);
+    CHECK(differences(data, again) == 0);
 }
 
 TEST_CASE("load_obj: line ends, numbers from the end, comments, no last line feed") {
@@ -170,35 +169,74 @@ TEST_CASE("load_obj: polygons are cut along their own shape") {
           std::string::npos);
 }
 
+namespace {
+
+using Corners = std::vector<glm::dvec3>;
+
+/// Twice the area of a polygon in z = 0, by the shoelace formula.
+double twice_area(const Corners& corners) {
+    double sum = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        sum += glm::cross(corners[i], corners[(i + 1) % corners.size()]).z;
+    return sum;
+}
+
+/// Cuts a polygon in z = 0; the triangles fill it and turn its way.
+/// \param flat  Some may have no area, or be missing.
+void check_cut(const Corners& corners, bool flat = false) {
+    const auto cut = detail::cut_polygon(corners);
+    CHECK_FALSE(cut.crossed);
+    if (!flat) REQUIRE(cut.triangles.size() == corners.size() - 2);
+    double sum = 0;
+    for (const auto& [a, b, c] : cut.triangles) {
+        const double twice =
+            glm::cross(corners[b] - corners[a], corners[c] - corners[a]).z;
+        REQUIRE(twice > (flat ? -1e-12 : 0));
+        sum += twice;
+    }
+    REQUIRE(sum == doctest::Approx(twice_area(corners)).epsilon(1e-9));
+}
+
+/// A corner in z = 0.
+glm::dvec3 corner(double angle, double radius) {
+    return {radius * std::cos(angle), radius * std::sin(angle), 0};
+}
+
+} // namespace
+
 TEST_CASE("load_obj: random polygons are cut into triangles that all turn one way") {
     RandomStream stream = random_stream(7, Pass::user, 0, 0);
     for (int round = 0; round < 300; ++round) {
         // Around a point, at any radius: mostly hollow corners.
         const int most = round % 10 == 0 ? 120 : 9;
         const int count = 4 + int(next_1d<double>(stream) * most);
-        std::vector<glm::dvec3> corners;
+        Corners corners;
         for (int i = 0; i < count; ++i) {
-            const double a = 2 * std::numbers::pi *
-                             (i + 0.5 * next_1d<double>(stream)) / count,
-                         r = 0.1 + next_1d<double>(stream);
-            corners.push_back({r * std::cos(a), r * std::sin(a), 0});
+            const double turn = (i + 0.5 * next_1d<double>(stream)) / count;
+            corners.push_back(
+                corner(2 * std::numbers::pi * turn, 0.1 + next_1d<double>(stream)));
         }
-        double right = 0;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
-            right += (a.x * b.y - a.y * b.x) / 2;
-        }
-        const auto triangles = detail::cut_polygon(corners).triangles;
-        REQUIRE(triangles.size() == corners.size() - 2);
-        double sum = 0;
-        for (const auto& t : triangles) {
-            const double twice =
-                glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]])
-                    .z;
-            REQUIRE(twice > 0);
-            sum += twice / 2;
-        }
-        REQUIRE(sum == doctest::Approx(right).epsilon(1e-12));
+        check_cut(corners);
+    }
+    // A ring of corners at random radii, and a hole in it, clockwise, joined by a bridge
+    // that is walked twice. Both begin at the angle 0; the edges of the outer one stay
+    // beyond 0.75 of its least radius, as its corners are at most a fifth of a turn
+    // apart.
+    const auto ring = [&](int count, double least, double most, bool back) {
+        Corners corners;
+        for (int i = 0; i < count; ++i)
+            corners.push_back(corner(2 * std::numbers::pi * (back ? -i : i) / count,
+                                     least + (most - least) * next_1d<double>(stream)));
+        return corners;
+    };
+    for (int round = 0; round < 300; ++round) {
+        const int count = 5 + int(next_1d<double>(stream) * 20);
+        Corners corners = ring(count, 2, 4, false);
+        const Corners hole = ring(count, 0.2, 1.5, true);
+        corners.push_back(corners[0]);
+        corners.insert(corners.end(), hole.begin(), hole.end());
+        corners.push_back(hole[0]);
+        check_cut(corners, true);
     }
 }
 
@@ -210,7 +248,7 @@ TEST_CASE("load_obj: a polygon that is not flat is cut as it is seen along its a
     const glm::dvec3 v = glm::cross(normal, u);
     for (int round = 0; round < 300; ++round) {
         const int count = 4 + int(next_1d<double>(stream) * 9);
-        std::vector<glm::dvec3> corners;
+        Corners corners;
         for (int i = 0; i < count; ++i) {
             const double a = 2 * std::numbers::pi * i / count;
             const double r = 0.3 + next_1d<double>(stream);
@@ -229,57 +267,24 @@ TEST_CASE("load_obj: a polygon that is not flat is cut as it is seen along its a
     }
 }
 
-TEST_CASE("load_obj: the corners beside an ear are asked again when it is cut off") {
-    // Here the one before it is an ear no longer.
-    const std::vector<glm::dvec3> corners{{7, 8, 0}, {6, 6, 0}, {6, 3, 0},
-                                          {1, 2, 0}, {7, 0, 0}, {6, 2, 0}};
-    const auto triangles = detail::cut_polygon(corners).triangles;
-    REQUIRE(triangles.size() == 4);
-    for (const auto& t : triangles)
-        CHECK(
-            glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]]).z >
-            0);
-}
-
-TEST_CASE("load_obj: a corner on the line that would cut off an ear keeps it") {
-    // The fourth corner lies between the first and the third: were the second one cut
-    // off there, the first, third and fourth would be left, which have no area.
-    const std::vector<glm::dvec3> corners{
-        {6, 4, 0}, {6, 5, 0}, {4, 6, 0}, {5, 5, 0}, {1, 1, 0}};
-    for (std::size_t first = 0; first < corners.size(); ++first) {
-        std::vector<glm::dvec3> turned = corners;
-        std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first),
-                    turned.end());
-        const auto triangles = detail::cut_polygon(turned).triangles;
-        REQUIRE(triangles.size() == 3);
-        double twice = 0;
-        for (const auto& t : triangles) {
-            const double one =
-                glm::cross(turned[t[1]] - turned[t[0]], turned[t[2]] - turned[t[0]]).z;
-            CHECK(one > 0);
-            twice += one;
+TEST_CASE(
+    "load_obj: an ear is cut off where it leaves nothing wrong, from any corner") {
+    // Of the first, the corner before an ear is an ear no longer when that is cut off.
+    // Of the second, the fourth corner lies between the first and the third: were the
+    // second one cut off there, what is left would have no area. The third is two
+    // triangles that meet in the fourth corner, on the first side.
+    const Corners polygons[] = {
+        {{7, 8, 0}, {6, 6, 0}, {6, 3, 0}, {1, 2, 0}, {7, 0, 0}, {6, 2, 0}},
+        {{6, 4, 0}, {6, 5, 0}, {4, 6, 0}, {5, 5, 0}, {1, 1, 0}},
+        {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}};
+    for (const Corners& polygon : polygons)
+        for (std::size_t first = 0; first < polygon.size(); ++first) {
+            CAPTURE(first);
+            Corners turned = polygon;
+            std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first),
+                        turned.end());
+            check_cut(turned, &polygon == &polygons[2]);
         }
-        CHECK(twice == 10); // by the shoelace formula
-    }
-}
-
-TEST_CASE("load_obj: no ear is cut off across a corner that touches its side") {
-    // Two triangles of area 4 that meet in the fourth corner, on the first side.
-    const std::vector<glm::dvec3> corners{
-        {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}};
-    for (std::size_t first = 0; first < corners.size(); ++first) {
-        std::vector<glm::dvec3> turned = corners;
-        std::rotate(turned.begin(), turned.begin() + std::ptrdiff_t(first),
-                    turned.end());
-        double twice = 0;
-        for (const auto& t : detail::cut_polygon(turned).triangles) {
-            const double one =
-                glm::cross(turned[t[1]] - turned[t[0]], turned[t[2]] - turned[t[0]]).z;
-            CHECK(one >= 0);
-            twice += one;
-        }
-        CHECK(twice == 16);
-    }
 }
 
 TEST_CASE("load_obj: of corners without an area nothing is cut") {
@@ -317,16 +322,11 @@ TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
     // Stars: every second corner is hollow. A second or two in n^2, not in n^3.
     constexpr int count = 1000;
     std::string text;
-    std::vector<double> x, y;
+    Corners star;
     for (int i = 0; i < count; ++i) {
-        const double a = 2 * std::numbers::pi * i / count, r = i % 2 == 0 ? 1 : 0.3;
-        x.push_back(double(float(r * std::cos(a))));
-        y.push_back(double(float(r * std::sin(a))));
-        append(text, "v ", Vec3(float(x.back()), float(y.back()), 0));
+        star.push_back(corner(2 * std::numbers::pi * i / count, i % 2 == 0 ? 1 : 0.3));
+        append(text, "v ", Vec3(star.back()));
     }
-    double right = 0;
-    for (std::size_t i = 0, k = 1; i < count; ++i, k = (i + 1) % count)
-        right += (x[i] * y[k] - x[k] * y[i]) / 2;
     std::string face = "f";
     for (int i = 1; i <= count; ++i) face.append(" ").append(std::to_string(i));
     constexpr int faces = 150;
@@ -336,7 +336,8 @@ TEST_CASE("load_obj: many corners, in and out, are cut in no time") {
     const double seconds = double(std::clock() - before) / CLOCKS_PER_SEC;
     const Mesh& mesh = loaded.parts[0].mesh;
     CHECK(mesh.size() == faces * (count - 2));
-    CHECK(double(area(mesh)) == doctest::Approx(faces * right).epsilon(1e-5));
+    CHECK(double(area(mesh)) ==
+          doctest::Approx(faces * twice_area(star) / 2).epsilon(1e-5));
     CHECK_MESSAGE(seconds < 15, seconds);
 }
 
@@ -403,30 +404,29 @@ TEST_CASE("load_obj: a file without a face is refused with a sentence") {
     CHECK(message("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n").find("line 2: 1 vert") !=
           std::string::npos);
     const ScratchFolder folder;
-    const auto refused = [](const std::string& path) {
-        try {
-            (void)load_obj(path);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what()).find(path) != std::string::npos;
-        }
-        return false;
+    const auto refused = [&](const char* name) {
+        return ljus_test::refusal<std::runtime_error>(
+            [&] { (void)load_obj(folder.file(name)); });
     };
-    CHECK(refused(folder.file("")));
-    CHECK(refused(folder.file("missing.obj")));
-    std::ofstream(folder.file("empty.obj")).close();
-    CHECK(refused(folder.file("empty.obj")));
+    ScratchFolder::write(folder.file("empty.obj"), "");
+    for (const char* const name : {"", "missing.obj", "empty.obj"})
+        CHECK(refused(name).find(folder.file(name)) != std::string::npos);
+    ScratchFolder::write(folder.file("a.obj"), std::string("\xff\xfev\0 \0", 6));
+    CHECK(refused("a.obj") == "cannot read '" + folder.file("a.obj") +
+                                  "': its text is UTF-16; save it as UTF-8.");
 }
 
 TEST_CASE("load_obj: materials of a file, and scenes that use it") {
     const ScratchFolder folder;
-    std::ofstream(folder.file("m.mtl"))
-        << "newmtl red\nKd 0.8 0.1 0.1\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n"
-           "newmtl clear\nillum 7\nNi 1.33\nnewmtl shiny\nillum 3\nKs 0.9 0.8 2\n"
-           "newmtl odd\nKd nan -1 7\nNi -3\nd 9\n";
+    ScratchFolder::write(
+        folder.file("m.mtl"),
+        "newmtl red\nKd 0.8 0.1 0.1\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n"
+        "newmtl clear\nillum 7\nNi 1.33\nnewmtl shiny\nillum 3\nKs 0.9 0.8 2\n"
+        "newmtl odd\nKd nan -1 7\nNi -3\nd 9\n");
     std::string text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     for (const char* name : {"red", "lamp", "clear", "shiny", "odd", "red"})
         text.append("usemtl ").append(name).append("\nf 1 2 3\n");
-    std::ofstream(folder.file("m.obj")) << text;
+    ScratchFolder::write(folder.file("m.obj"), text);
     const auto loaded = load_obj(folder.file("m.obj"));
     REQUIRE(loaded.parts.size() == 5);
     CHECK(loaded.parts[0].mesh.size() == 2);
@@ -1064,19 +1064,6 @@ TEST_CASE("load_obj: files of other programs") {
     CHECK(has.normals[has.triangles[1][0]] == Vec3{0, 0, 1});
 }
 
-TEST_CASE("load_obj: text in UTF-16 is refused by its name") {
-    const ScratchFolder folder;
-    ScratchFolder::write(folder.file("a.obj"), std::string("\xff\xfev\0 \0", 6));
-    try {
-        (void)load_obj(folder.file("a.obj"));
-        FAIL("it was read");
-    } catch (const std::runtime_error& error) {
-        CHECK(std::string(error.what()) == "cannot read '" + folder.file("a.obj") +
-                                               "': its text is UTF-16; save it as "
-                                               "UTF-8.");
-    }
-}
-
 TEST_CASE("load_obj: a file that comes in pieces has the lines of the whole") {
     const std::string text =
         "\xef\xbb\xbfv 1\r\n\r\n\rf 1 \\\r\n2\\\n\n# c\\\n\\\n\nf\\";
@@ -1110,14 +1097,7 @@ TEST_CASE("load_obj: a file that comes in pieces has the lines of the whole") {
     const MeshData& again = loaded.parts.at(0).mesh.data();
     CHECK(again.positions.size() == ball.positions.size());
     REQUIRE(again.triangles.size() == ball.triangles.size());
-    int other = 0;
-    for (std::size_t i = 0; i < ball.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            other += ball.positions[ball.triangles[i][k]] ==
-                             again.positions[again.triangles[i][k]]
-                         ? 0
-                         : 1;
-    CHECK(other == 0);
+    CHECK(differences(ball, again) == 0);
 }
 
 TEST_CASE("load_obj: a material file may be named behind its use") {
@@ -1132,42 +1112,4 @@ TEST_CASE("load_obj: a material file may be named behind its use") {
     CHECK(loaded.parts[1].material.diffuse == glm::dvec3{1, 0, 0});
     CHECK(loaded.report[MeshTrouble::no_material].count == 3);
     CHECK(loaded.report[MeshTrouble::no_material].line == 5);
-}
-
-TEST_CASE("load_obj: random polygons with holes have the area that is left") {
-    // A ring of corners at random radii, counter-clockwise, and a hole in it, clockwise,
-    // joined by a bridge that is walked twice.
-    RandomStream stream = random_stream(17, Pass::user, 0, 0);
-    const auto ring = [&](int count, double least, double most, bool back) {
-        std::vector<glm::dvec3> corners;
-        for (int i = 0; i < count; ++i) {
-            const double a = 2 * std::numbers::pi * (back ? -i : i) / count;
-            const double r = least + (most - least) * next_1d<double>(stream);
-            corners.push_back({r * std::cos(a), r * std::sin(a), 0});
-        }
-        return corners;
-    };
-    for (int round = 0; round < 300; ++round) {
-        const int count = 5 + int(next_1d<double>(stream) * 20);
-        // Both begin at the angle 0; the edges of the outer one stay beyond 0.75 of its
-        // least radius, as its corners are at most a fifth of a turn apart.
-        std::vector<glm::dvec3> corners = ring(count, 2, 4, false);
-        const auto hole = ring(count, 0.2, 1.5, true);
-        corners.push_back(corners[0]);
-        corners.insert(corners.end(), hole.begin(), hole.end());
-        corners.push_back(hole[0]);
-        double right = 0;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
-            right += (a.x * b.y - a.y * b.x) / 2;
-        }
-        const auto cut = detail::cut_polygon(corners);
-        CHECK_FALSE(cut.crossed);
-        double sum = 0;
-        for (const auto& t : cut.triangles)
-            sum += glm::length(glm::cross(corners[t[1]] - corners[t[0]],
-                                          corners[t[2]] - corners[t[0]])) /
-                   2;
-        CHECK(sum == doctest::Approx(right).epsilon(1e-9));
-    }
 }

@@ -65,17 +65,6 @@ int quality(std::uint32_t d, std::uint32_t e, int m, std::uint64_t seed) {
     return m;
 }
 
-/// The slope of log(error) against log(N) by least squares.
-double slope(const std::vector<double>& n, const std::vector<double>& error) {
-    double sx = 0, sy = 0, sxx = 0, sxy = 0;
-    const auto count = static_cast<double>(n.size());
-    for (std::size_t i = 0; i < n.size(); ++i) {
-        const double x = std::log(n[i]), y = std::log(error[i]);
-        sx += x, sy += y, sxx += x * x, sxy += x * y;
-    }
-    return (count * sxy - sx * sy) / (count * sxx - sx * sx);
-}
-
 /// How the rms error of a mean over the square falls with the number of points.
 template <typename F>
 double error_slope(F f, double exact, bool low_discrepancy) {
@@ -92,10 +81,10 @@ double error_slope(F f, double exact, bool low_discrepancy) {
             const double error = sum / double(1 << m) - exact;
             squares += error * error / 64;
         }
-        counts.push_back(double(1 << m));
-        errors.push_back(std::sqrt(squares));
+        counts.push_back(std::log(1 << m));
+        errors.push_back(std::log(squares) / 2);
     }
-    return slope(counts, errors);
+    return ljus_test::slope(counts, errors);
 }
 
 } // namespace

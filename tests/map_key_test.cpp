@@ -20,6 +20,7 @@
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 
@@ -79,12 +80,8 @@ struct Parts {
 auto go_on = [](long long, long long) { return true; };
 
 std::string refusal(const std::string& path, const LightMapKey& key) {
-    try {
-        (void)load_light_map(path, key);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "it was read";
+    return ljus_test::refusal<std::runtime_error>(
+        [&] { (void)load_light_map(path, key); }, "it was read");
 }
 
 } // namespace

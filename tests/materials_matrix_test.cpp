@@ -22,6 +22,8 @@
 #include "ljus/render/render.hpp"
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/scene.hpp"
+#include "support/block_means.hpp"
+#include "support/box_sides.hpp"
 #include "support/mean.hpp"
 #include "support/student.hpp"
 
@@ -56,13 +58,7 @@ World<Room> room_with(const M& material) {
     const auto red = room.add(Matt{.albedo{0.6f, 0.3f, 0.3f}});
     const auto green = room.add(Matt{.albedo{0.3f, 0.6f, 0.3f}});
     const auto black = room.add(Matt{.albedo = Rgb{0}});
-    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2};
-    room.add(Quad{{-1, -1, -1}, z, x}, grey);
-    room.add(Quad{{-1, 1, -1}, x, z}, grey);
-    room.add(Quad{{-1, -1, -1}, x, y}, grey);
-    room.add(Quad{{-1, -1, 1}, y, x}, grey);
-    room.add(Quad{{-1, -1, -1}, y, z}, red);
-    room.add(Quad{{1, -1, -1}, z, y}, green);
+    ljus_test::add_room(room, Vec3{-1}, Vec3{1}, {grey, grey, grey, grey, red, green});
     room.add(Sphere{.center{-0.15f, -0.45f, -0.2f}, .radius = 0.5f},
              room.add(material));
     room.add(Sphere{.center{0.6f, -0.7f, 0.25f}, .radius = 0.25f},
@@ -70,26 +66,6 @@ World<Room> room_with(const M& material) {
     room.add(Quad{{-0.6f, 0.98f, -0.55f}, {1, 0, 0}, {0, 0, 1}}, black, Rgb{4, 4, 3});
     return World(std::move(room));
 }
-
-/// The means of the blocks and of the whole picture, over several seeds.
-struct Blocks {
-    Mean of_block[across * across];
-    Mean of_all;
-
-    void add(const Image& image) {
-        double sum[across * across] = {};
-        double all = 0;
-        for (int y = 0; y < size; ++y)
-            for (int x = 0; x < size; ++x) {
-                const Rgb& c = pixel(image, x, y);
-                const double value = double(c.x + c.y + c.z) / 3;
-                sum[y / block * across + x / block] += value / (block * block);
-                all += value / (size * size);
-            }
-        for (int b = 0; b < across * across; ++b) of_block[b].add(sum[b]);
-        of_all.add(all);
-    }
-};
 
 /// All that was compared.
 struct Found {
@@ -114,7 +90,7 @@ void compare(const std::string& name, const M& material, std::uint64_t cell,
                               .seed = test_seed(seed),
                               .threads = 1};
     };
-    Blocks traced, mapped;
+    ljus_test::BlockMeans traced{block}, mapped{block};
     for (std::uint64_t s = 1; s <= traced_seeds; ++s)
         traced.add(
             render(PathTracer(room), camera, picture(1000 * cell + 500 + s)).image);
@@ -128,13 +104,13 @@ void compare(const std::string& name, const M& material, std::uint64_t cell,
                 .image);
     }
     double least = 1;
-    for (int b = 0; b < across * across; ++b) {
-        const double chance = chance_of(mapped.of_block[b], traced.of_block[b]);
+    for (std::size_t b = 0; b < across * across; ++b) {
+        const double chance = chance_of(mapped.of[b], traced.of[b]);
         ++all.blocks;
         all.rare += chance < 0.0027 ? 1 : 0;
         least = std::min(least, chance);
     }
-    const Mean &a = mapped.of_all, &b = traced.of_all;
+    const Mean &a = mapped.of.back(), &b = traced.of.back();
     const double error = std::hypot(a.error(), b.error()) / b.mean;
     const double chance = chance_of(a, b);
     MESSAGE(name, ": means ", 100 * (a.mean / b.mean - 1), " +- ", 100 * error,

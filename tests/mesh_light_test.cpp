@@ -2,9 +2,6 @@
 // long: 16 pictures of each of 8 rooms
 #include <doctest/doctest.h>
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "ljus/inspect/metrics.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
@@ -106,8 +103,7 @@ Blocks mapped(const ClosedMeshRoom& room, std::uint64_t first, int count) {
 // 4 rooms of 36 blocks, each compared twice: of 288 distances chance puts 2 beyond 3
 // standard errors (Student's t, 30 to 45 degrees of freedom), more than 9 in one run of
 // 20 000, and one beyond 6 in one run of 2500; one of the eight means lies beyond 5 in
-// one run of 6000. Run with 20 further seeds: none failed. SHOW in the environment
-// prints them.
+// one run of 6000. Run with 20 further seeds: none failed.
 TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers") {
     int beyond3 = 0, beyond6 = 0;
     std::uint64_t first = 100;
@@ -121,16 +117,6 @@ TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers
             const Blocks c = traced(sphere, first + 400, 32);
             CAPTURE(furnace);
             CAPTURE(glass);
-            const double map_off = b.all.mean / a.all.mean - 1;
-            const double sphere_off = a.all.mean / c.all.mean - 1;
-            if (std::getenv("SHOW"))
-                std::printf("furnace %d glass %d: mapped %+.2f%% +- %.2f%%, "
-                            "sphere %+.2f%% +- %.2f%%\n",
-                            furnace, glass, 100 * map_off,
-                            100 * std::hypot(a.all.error(), b.all.error()) / a.all.mean,
-                            100 * sphere_off,
-                            100 * std::hypot(a.all.error(), c.all.error()) /
-                                a.all.mean);
             for (const Blocks* other : {&b, &c}) {
                 CHECK(std::abs(apart(a.all, other->all)) < 5);
                 // Or the check above could not fail.
@@ -145,7 +131,6 @@ TEST_CASE("mesh: a ball of 20480 smooth triangles is a sphere, in both renderers
                     beyond6 += off < 6 ? 0 : 1;
                 }
         }
-    if (std::getenv("SHOW")) std::printf("beyond 3: %d, 6: %d\n", beyond3, beyond6);
     CHECK(beyond3 <= 9);
     CHECK(beyond6 == 0);
 }

@@ -10,6 +10,7 @@
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "support/mesh_rooms.hpp"
 #include "support/numbers.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -460,12 +461,7 @@ TEST_CASE("mesh: the memory of a triangle, its tree included") {
 TEST_CASE("mesh: what is wrong is said with its place") {
     const MeshData good = icosphere(unit_ball, 0);
     const auto message = [](const MeshData& data) {
-        try {
-            const Mesh mesh(data);
-        } catch (const std::invalid_argument& error) {
-            return std::string(error.what());
-        }
-        return std::string("nothing");
+        return ljus_test::refusal([&] { const Mesh mesh(data); }, "nothing");
     };
     CHECK(message(good) == "nothing");
     CHECK(message({}) == "the number of a mesh's triangles is 0; it must be at least 1 "

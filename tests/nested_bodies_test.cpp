@@ -32,10 +32,11 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "support/mean.hpp"
+#include "support/slabs.hpp"
 #include "support/student.hpp"
 
 using namespace ljus;
-using ljus_test::Mean, ljus_test::mean_radiance;
+using namespace ljus_test;
 
 namespace {
 
@@ -58,50 +59,11 @@ EnvironmentLightT<T> sky() {
                                     RgbT<T>{T(0.5)})};
 }
 
-/// A rectangle in a plane of constant z; it faces up or down.
-template <typename T>
-QuadT<T> face(double z, bool up) {
-    const Vec3T<T> x{T(100), T(0), T(0)}, y{T(0), T(100), T(0)};
-    const Vec3T<T> corner{T(-50), T(-50), T(z)};
-    return up ? QuadT<T>{corner, x, y} : QuadT<T>{corner, y, x};
-}
-
 /// Adds a wide slab.
 template <typename T>
 void add_slab(Bodies<T>& scene, double low, double high, MaterialId material) {
-    scene.add(face<T>(low, false), material);
-    scene.add(face<T>(high, true), material);
-}
-
-/// Fresnel's reflectance of unpolarised light between two indices, for a ray that has
-/// an angle in air.
-double reflectance(double n1, double n2, double degrees) {
-    const double s = std::sin(degrees * std::numbers::pi / 180);
-    const double c1 = std::sqrt(1 - s * s / (n1 * n1));
-    const double c2 = std::sqrt(1 - s * s / (n2 * n2));
-    const double rs = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2);
-    const double rp = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2);
-    return (rs * rs + rp * rp) / 2;
-}
-
-/// The transmittance of a stack of layers that absorb, from air into air, with all
-/// reflections. Layer by layer, from the far side: what is known of the stack behind a
-/// boundary is its reflectance R and its transmittance T.
-double transmittance_of(const std::vector<double>& indices,
-                        const std::vector<double>& absorbed, double degrees) {
-    double r = 0, t = 1;
-    for (std::size_t i = indices.size(); i-- > 1;) {
-        const double f = reflectance(indices[i - 1], indices[i], degrees);
-        const double inner = 1 - f * r;
-        t = (1 - f) * t / inner;
-        r = f + (1 - f) * (1 - f) * r / inner;
-        if (i == 1) break;
-        const double s = std::sin(degrees * std::numbers::pi / 180) / indices[i - 1];
-        const double a = std::exp(-absorbed[i - 1] / std::sqrt(1 - s * s));
-        t *= a;
-        r *= a * a;
-    }
-    return t;
+    scene.add(face(T(low), false), material);
+    scene.add(face(T(high), true), material);
 }
 
 /// What a ray sees of a lamp of radiance 1 behind slabs.
@@ -109,17 +71,7 @@ template <typename T>
 Mean seen_through(const std::function<void(Bodies<T>&)>& add, double degrees) {
     Bodies<T> scene;
     add(scene);
-    scene.add(QuadT<T>{{T(-500), T(-500), T(-5)},
-                       {T(1000), T(0), T(0)},
-                       {T(0), T(1000), T(0)}},
-              scene.add(LambertianT<T>{RgbT<T>{0}}), RgbT<T>{1});
-    const World world(std::move(scene));
-    const double a = degrees * std::numbers::pi / 180;
-    const Vec3T<T> way{T(std::sin(a)), T(0), T(-std::cos(a))};
-    return mean_radiance(
-        PathTracer(world, {.roulette_depth = 1000}), 20000, 7, [&](const auto&) {
-            return RayT<T>{.origin = T(-5 / std::cos(a)) * way, .direction = way};
-        });
+    return seen_through_scene<T>(std::move(scene), degrees);
 }
 
 /// Clear all over, so that light splits at it into a reflected and a refracted part.
@@ -291,7 +243,7 @@ TEST_CASE("nested bodies: water on glass and glass in water, as the exact series
             add_slab(scene, -0.3, 1, scene.add(nested<T>(1.33, 1, 0.5)));
             add_slab(scene, -1, 0, scene.add(nested<T>(1.5, 2, 0.25)));
         };
-        const double on = transmittance_of({1, 1.33, 1.5, 1}, {0, 0.5, 0.25}, degrees);
+        const double on = transmittance_of({1, 1.33, 1.5, 1}, degrees, {0, 0.5, 0.25});
         agrees(seen_through<float>(on_glass, degrees), on);
         agrees(seen_through<double>(on_glass, degrees), on);
         agrees(seen_through<double>(
@@ -320,7 +272,7 @@ TEST_CASE("nested bodies: water on glass and glass in water, as the exact series
                        add_slab(scene, -1, 0, scene.add(nested<double>(1.5, 2, 0.25)));
                    },
                    degrees),
-               transmittance_of({1, 1.33, 1.5, 1.33, 1}, {0, 1.0, 0.25, 0.5}, degrees));
+               transmittance_of({1, 1.33, 1.5, 1.33, 1}, degrees, {0, 1.0, 0.25, 0.5}));
     }
 }
 
@@ -336,8 +288,7 @@ TEST_CASE("nested bodies: three that end and begin in one plane") {
     };
     const auto agrees = [](const Mean& mean, const std::vector<double>& indices) {
         CAPTURE(mean.mean);
-        CHECK(mean.agrees_with(
-            transmittance_of(indices, std::vector<double>(indices.size()), 30)));
+        CHECK(mean.agrees_with(transmittance_of(indices, 30)));
     };
     agrees(seen_through<double>(stack(false), 30), {1, 1.33, 1, 1.5, 1});
     // Of glass and oil, of one priority, the higher index holds.

@@ -16,6 +16,7 @@
 #include "ljus/path/direct_light.hpp"
 #include "scratch_folder.hpp"
 #include "support/mesh_bytes.hpp"
+#include "support/refusal.hpp"
 
 using namespace ljus;
 using namespace ljus_test;
@@ -429,13 +430,9 @@ TEST_CASE("own materials: who reads no materials says so") {
     const ScratchFolder folder;
     write_gltf(folder, pictured());
     const std::string text = scene_text(gltf_object);
-    const auto why = [&](auto load) -> std::string {
-        try {
-            (void)read_json_scene(text, "s.json", load);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+    const auto why = [&](auto load) {
+        return ljus_test::refusal<std::runtime_error>(
+            [&] { (void)read_json_scene(text, "s.json", load); });
     };
     CHECK(why([](const std::string&, double, const std::string&) {
               return std::vector<Mesh>{};

@@ -18,6 +18,7 @@
 #if __has_include(<nlohmann/json.hpp>)
 #define HAS_SLICES
 #include "common/picture_slice.hpp"
+#include "support/refusal.hpp"
 #endif
 
 namespace {
@@ -53,6 +54,14 @@ auto sum_of_blocks(long long count, Body&& body, int threads = 0) {
     R sum{};
     for (const R& block_sum : sums) sum = sum + block_sum;
     return sum;
+}
+
+/// Waits until a condition holds, but not for ever.
+template <typename Condition>
+void wait_for(Condition holds, int seconds = 5) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+    while (!holds() && std::chrono::steady_clock::now() < end)
+        std::this_thread::yield();
 }
 
 // Some work whose result depends on every step.
@@ -128,10 +137,7 @@ TEST_CASE("parallel: more than one thread works at a time") {
                                   second = true;
                                   return;
                               }
-                              const auto end = std::chrono::steady_clock::now() +
-                                               std::chrono::seconds(20);
-                              while (!second && std::chrono::steady_clock::now() < end)
-                                  std::this_thread::yield();
+                              wait_for([&] { return second.load(); }, 20);
                               met = second.load();
                           },
                           {.threads = 2});
@@ -185,9 +191,7 @@ TEST_CASE("parallel: while one thread tells, the others work and do not tell") {
     std::atomic<int> inside{0}, overlaps{0}, done_blocks{0};
     auto progress = [&](long long done, long long) {
         if (++inside != 1) ++overlaps;
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        while (done < 3 && done_blocks < 10 && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
+        wait_for([&] { return done >= 3 || done_blocks >= 10; });
         --inside;
         return true;
     };
@@ -200,11 +204,6 @@ TEST_CASE("parallel: while one thread tells, the others work and do not tell") {
 TEST_CASE("parallel: whoever said stop is not asked again") {
     // Block 1 ends after block 0 was told of, and that told to stop.
     std::atomic<bool> begun{false}, told{false};
-    const auto wait_for = [](const std::atomic<bool>& flag) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        while (!flag && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
-    };
     std::atomic<int> calls{0}, runs{0};
     auto progress = [&](long long, long long) {
         ++calls;
@@ -212,10 +211,10 @@ TEST_CASE("parallel: whoever said stop is not asked again") {
     };
     const auto body = [&](long long b) {
         ++runs;
-        if (b == 0) wait_for(begun);
+        if (b == 0) wait_for([&] { return begun.load(); });
         if (b != 1) return;
         begun = true;
-        wait_for(told);
+        wait_for([&] { return told.load(); });
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
     };
     auto tell = [&](long long done, long long total) {
@@ -231,23 +230,18 @@ TEST_CASE("parallel: whoever said stop is not asked again") {
 TEST_CASE("parallel: what ended while another thread was telling is told at the end") {
     // Block 0 is told of until block 1 has ended and found that somebody tells.
     std::atomic<bool> telling{false}, ended{false};
-    const auto wait_for = [](const std::atomic<bool>& flag) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        while (!flag && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
-    };
     std::vector<long long> heard;
     auto progress = [&](long long done, long long) {
         heard.push_back(done);
         if (done == 2) return true;
         telling = true;
-        wait_for(ended);
+        wait_for([&] { return ended.load(); });
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         return true;
     };
     const auto body = [&](long long b) {
         if (b == 0) return;
-        wait_for(telling);
+        wait_for([&] { return telling.load(); });
         ended = true;
     };
     CHECK(ljus::parallel_blocks(2, body, {.threads = 2, .progress = progress}));
@@ -259,9 +253,7 @@ TEST_CASE("parallel: 0 threads are all that there are") {
     std::atomic<int> begun{0};
     ljus::parallel_blocks(2, [&](long long) {
         ++begun;
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-        while (begun < 2 && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
+        wait_for([&] { return begun >= 2; }, 20);
         CHECK(begun == 2); // both at a time
     });
 }
@@ -270,15 +262,10 @@ TEST_CASE("parallel: what a block threw is not forgotten because progress goes o
     // Block 0 is told of while block 1 throws; then progress says "go on".
     std::atomic<int> runs{0};
     std::atomic<bool> thrown{false};
-    const auto wait_for = [](const std::atomic<bool>& flag) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-        while (!flag && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
-    };
     std::atomic<bool> telling{false};
     auto progress = [&](long long, long long) {
         telling = true;
-        wait_for(thrown);
+        wait_for([&] { return thrown.load(); });
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
         return true;
     };
@@ -286,7 +273,7 @@ TEST_CASE("parallel: what a block threw is not forgotten because progress goes o
                                           [&](long long b) {
                                               ++runs;
                                               if (b != 1) return;
-                                              wait_for(telling);
+                                              wait_for([&] { return telling.load(); });
                                               thrown = true;
                                               throw std::runtime_error("block 1");
                                           },
@@ -300,11 +287,8 @@ TEST_CASE("parallel: of two exceptions the first block's, whichever was thrown f
         std::atomic<int> here{0};
         std::atomic<bool> thrown{false};
         const auto body = [&](long long b) {
-            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
             ++here; // both have begun before any throws
-            while ((here < 2 || (b == late && !thrown)) &&
-                   std::chrono::steady_clock::now() < end)
-                std::this_thread::yield();
+            wait_for([&] { return here >= 2 && (b != late || thrown); });
             if (b == late) // the other one has been caught by then
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
             thrown = true;
@@ -322,9 +306,7 @@ TEST_CASE("parallel: as many threads as were asked for, and no more than blocks"
         int most = 0;
         const auto meet = [&](long long) {
             const int now = ++here;
-            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-            while (here < threads && std::chrono::steady_clock::now() < end)
-                std::this_thread::yield();
+            wait_for([&] { return here >= threads; });
             if (now == threads) most = here;
         };
         CHECK(ljus::parallel_blocks(threads, meet, {.threads = threads}));
@@ -513,12 +495,8 @@ TEST_CASE(
     const std::string path = folder.file("a.slice");
     const auto said = [&](const examples::PictureSlice& slice) -> std::string {
         examples::save_slice(path, slice);
-        try {
-            (void)examples::merge_slices({path});
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "merged";
+        return ljus_test::refusal<std::runtime_error>(
+            [&] { (void)examples::merge_slices({path}); }, "merged");
     };
     examples::PictureSlice slice{.slice = {1, 1}, .width = 2, .height = 1};
     slice.settings = R"({"scene": "a", "light": {"pairs": [[1, 2]]}})";

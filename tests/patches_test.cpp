@@ -12,7 +12,7 @@
 #include "ljus/scene/picture_lamp.hpp"
 #include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
-#include "support/form_factor_facing.hpp"
+#include "support/closed_forms.hpp"
 #include "support/refusal.hpp"
 #include "support/seed.hpp"
 

@@ -16,9 +16,11 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/plain_path_tracing.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 #include "support/seed.hpp"
+#include "support/slabs.hpp"
 
 using namespace ljus;
 using ljus_test::apart;
@@ -54,41 +56,7 @@ RayT<T> any_ray(RandomStream& stream) {
     return {.origin = origin, .direction = sample_uniform_sphere(next_2d<T>(stream))};
 }
 
-/// The unpolarised Fresnel reflectance, written from the textbook; 1 beyond the
-/// critical angle.
-double fresnel_share(double cos_i, double n_i, double n_t) {
-    const double sin_t = n_i / n_t * std::sqrt(1 - cos_i * cos_i);
-    if (sin_t >= 1) return 1;
-    const double cos_t = std::sqrt(1 - sin_t * sin_t);
-    const double s = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);
-    const double p = (n_t * cos_i - n_i * cos_t) / (n_t * cos_i + n_i * cos_t);
-    return (s * s + p * p) / 2;
-}
-
-/// The form factor from a point to a rectangle a x b at distance h whose corner lies
-/// straight above it.
-double corner_form_factor(double a, double b, double h) {
-    const double x = a / h, y = b / h;
-    const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
-    return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * pi);
-}
-
 } // namespace
-
-TEST_CASE_TEMPLATE("path tracing: in a furnace L = Le / (1 - albedo)", T, float,
-                   double) {
-    for (int tenths = 1; tenths <= 9; ++tenths) {
-        const double albedo = tenths / 10.0;
-        const World world(furnace<T>(T(albedo)));
-        const PathTracer tracer(world);
-        const Mean seen = mean_radiance(tracer, 40000, 1, any_ray<T>);
-        CAPTURE(albedo);
-        CAPTURE(seen.mean);
-        CAPTURE(seen.error());
-        CHECK(std::abs(apart(seen, 1 / (1 - albedo))) < limit);
-        CHECK(seen.error() < 0.005 / (1 - albedo));
-    }
-}
 
 TEST_CASE_TEMPLATE("path tracing: in a furnace every path of a given length brings the "
                    "partial geometric sum, with and without shadow rays",
@@ -166,7 +134,8 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
     const int steps = 100000;
     for (int i = 0; i < steps; ++i) { // uniform in sin^2(theta): cosine-weighted
         const double sine2 = (i + 0.5) / steps;
-        mean_share += fresnel_share(std::sqrt(1 - a * a * sine2), n, 1) / steps;
+        mean_share +=
+            ljus_test::fresnel_share(std::sqrt(1 - a * a * sine2), n, 1) / steps;
     }
     for (const double albedo : {1.0, 0.5})
         for (const double impact : {0.0, 0.5, 0.8, 0.9}) {
@@ -182,7 +151,8 @@ TEST_CASE_TEMPLATE("path tracing: a matt ball embedded in glass in a furnace", T
             };
             const double ball =
                 albedo * (1 - mean_share) * n * n / (1 - albedo * mean_share);
-            const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
+            const double share =
+                ljus_test::fresnel_share(std::sqrt(1 - impact * impact), 1, n);
             const bool meets = impact / n < a;
             const double right = meets ? share + (1 - share) * ball / (n * n) : 1;
             const World world(std::move(scene));
@@ -213,7 +183,8 @@ TEST_CASE_TEMPLATE("path tracing: a lamp embedded in glass looks n^2 times darke
             return RayT<T>{.origin{T(impact), T(0), T(3)},
                            .direction{T(0), T(0), T(-1)}};
         };
-        const double share = fresnel_share(std::sqrt(1 - impact * impact), 1, n);
+        const double share =
+            ljus_test::fresnel_share(std::sqrt(1 - impact * impact), 1, n);
         const double right = impact / n < a ? (1 - share) * 4 / (n * n) : 0;
         const World world(std::move(scene));
         const Mean seen = mean_radiance(PathTracer(world), 30000, 37, ray);
@@ -254,83 +225,26 @@ TEST_CASE_TEMPLATE("path tracing: a spherical lamp lights a surface with pi L (R
     }
 }
 
-TEST_CASE_TEMPLATE("path tracing: a square lamp twice as far lights 0.2598 as much", T,
-                   float, double) {
-    double irradiance[2];
-    double error[2];
-    for (const int i : {0, 1}) {
-        const double h = i == 0 ? 5 : 10;
-        Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>> scene;
-        const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
-        const auto white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(1)}});
-        scene.add(QuadT<T>{.corner{T(-1), T(h), T(-1)},
-                           .edge_u{T(2), T(0), T(0)},
-                           .edge_v{T(0), T(0), T(2)}},
-                  black, RgbT<T>{T(1)});
-        scene.add(QuadT<T>{.corner{T(-9), T(0), T(-9)},
-                           .edge_u{T(18), T(0), T(0)},
-                           .edge_v{T(0), T(0), T(18)}},
-                  white);
-        const auto ray = [](RandomStream&) {
-            return RayT<T>{.origin{T(-3), T(3), T(0)},
-                           .direction = glm::normalize(Vec3T<T>{T(3), T(-3), T(0)})};
-        };
-        // E1 x E2 points down, as the lamp does.
-        const World world(std::move(scene));
-        const PathTracer tracer(world);
-        const Mean seen = mean_radiance(tracer, 200000, 17, ray);
-        const double right = 4 * corner_form_factor(1, 1, h);
-        CAPTURE(h);
-        CHECK(std::abs(apart(seen, right, 1e-5)) < limit);
-        irradiance[i] = seen.mean;
-        error[i] = seen.error() / seen.mean;
-    }
-    const double ratio = irradiance[1] / irradiance[0];
-    CHECK(std::abs(ratio - 0.2598) <
-          0.0001 + 3 * ratio * std::hypot(error[0], error[1]));
-}
-
 TEST_CASE_TEMPLATE("path tracing: a slab of glass lets (1-R)/(1+R) through", T, float,
                    double) {
+    constexpr double n = 1.5, thickness = 0.7;
+    CHECK(ljus_test::transmittance_of({1, n, 1}, 0) ==
+          doctest::Approx(2 * n / (n * n + 1)));
     for (const double alpha : {0.0, 0.4})
         for (const double degrees : {0.0, 30.0, 60.0, 80.0}) {
-            const double n = 1.5, thickness = 0.7;
             Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>, GlassT<T>>> scene;
-            const auto black = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0)}});
             const auto glass =
                 scene.add(GlassT<T>{.index = T(n), .absorption = RgbT<T>{T(alpha)}});
-            const T half = T(2000);
-            const Vec3T<T> x{T(2) * half, T(0), T(0)}, z{T(0), T(0), T(2) * half};
-            scene.add(QuadT<T>{.corner{-half, T(0), -half}, .edge_u = z, .edge_v = x},
-                      glass); // normal up
-            scene.add(QuadT<T>{.corner{-half, T(-thickness), -half},
-                               .edge_u = x,
-                               .edge_v = z},
-                      glass); // normal down
-            scene.add(QuadT<T>{.corner{-half, T(-1), -half}, .edge_u = z, .edge_v = x},
-                      black, RgbT<T>{T(1)});
-            const double angle = degrees * pi / 180;
-            const auto ray = [&](RandomStream&) {
-                return RayT<T>{
-                    .origin{T(0), T(1), T(0)},
-                    .direction{T(std::sin(angle)), T(-std::cos(angle)), T(0)}};
-            };
-            const double r = fresnel_share(std::cos(angle), 1, n);
-            const double way =
-                thickness / std::sqrt(1 - std::pow(std::sin(angle) / n, 2));
-            const double kept = std::exp(-alpha * way);
-            const double right = (1 - r) * (1 - r) * kept / (1 - r * r * kept * kept);
-            const World world(std::move(scene));
-            const PathTracer tracer(world);
-            const Mean seen = mean_radiance(tracer, 60000, 19, ray);
+            scene.add(ljus_test::face(T(0), true), glass);
+            scene.add(ljus_test::face(T(-thickness), false), glass);
+            const Mean seen =
+                ljus_test::seen_through_scene<T>(std::move(scene), degrees, 60000);
             CAPTURE(degrees);
             CAPTURE(alpha);
-            CAPTURE(seen.mean);
-            CAPTURE(right);
+            const double right = ljus_test::transmittance_of({1, n, 1}, degrees,
+                                                             {0, alpha * thickness, 0});
             CHECK(std::abs(apart(seen, right, 1e-4)) < limit);
             CHECK(seen.error() < 0.005);
-            if (degrees == 0 && alpha == 0)
-                CHECK(right == doctest::Approx(2 * n / (n * n + 1)));
         }
 }
 

@@ -14,6 +14,7 @@
 #include "ljus/photons/irradiance_estimate.hpp"
 #include "scratch_folder.hpp"
 #include "support/draws.hpp"
+#include "support/refusal.hpp"
 
 #if __has_include(<sys/mman.h>)
 
@@ -52,12 +53,8 @@ Rgb estimate(const PhotonMap& map) {
 }
 
 std::string why_not(const std::string& path, const PhotonMapFileSettings& how = {}) {
-    try {
-        (void)open_photon_map(path, how);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "it was opened";
+    return ljus_test::refusal<std::runtime_error>(
+        [&] { (void)open_photon_map(path, how); }, "it was opened");
 }
 
 } // namespace

@@ -19,8 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include "ljus/render/path_tracing.hpp"
@@ -93,8 +91,6 @@ struct Distances {
 // from 16 seeds of the photon mapper and 20 to 40 of the reference. A mean is known to
 // 0.1 to 0.4 %; what all rooms had in common would show from 0.3 % on: their own mean,
 // and Fisher's sum of the logarithms of all chances, which has chi-square.
-//
-// With SHOW in the environment the numbers are printed.
 TEST_CASE("photon mapping: equals path tracing, material by material and light by "
           "light") {
     const Camera camera = room_camera<float>();
@@ -158,19 +154,12 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                 CAPTURE(name(lamp));
                 CAPTURE(lamps);
                 CAPTURE(here.at);
-                if (std::getenv("SHOW"))
-                    std::printf("%-10s %-6s %d  blocks %d rare %d least %.1e (%zu)",
-                                name(ball), name(lamp), lamps, here.count, here.rare,
-                                here.least, here.at);
                 CHECK(here.least > 1e-8);
                 for (int c = 0; c < 3; ++c) {
                     const Mean& a = mapped.of_channel[c];
                     const Mean& b = traced.of_channel[c];
                     const double error = std::hypot(a.error(), b.error()) / b.mean;
                     const double chance = chance_of(a, b);
-                    if (std::getenv("SHOW"))
-                        std::printf("  %+.2f+-%.2f%%", 100 * (a.mean / b.mean - 1),
-                                    100 * error);
                     CHECK(chance > 1e-7);
                     if (c != 1) continue;
                     ++rooms;
@@ -178,13 +167,8 @@ TEST_CASE("photon mapping: equals path tracing, material by material and light b
                     off += a.mean / b.mean - 1;
                     off_variance += error * error;
                 }
-                if (std::getenv("SHOW")) std::printf("\n"), std::fflush(stdout);
             }
     const double off_error = std::sqrt(off_variance);
-    if (std::getenv("SHOW"))
-        std::printf("all %d rare %d least %.1e surprise %.1f off %+.3f+-%.3f%%\n",
-                    all.count, all.rare, all.least, surprise, 100 * off / rooms,
-                    100 * off_error / rooms);
     CHECK(all.count >= 1000);
     CHECK(all.rare <= 16);
     CHECK(rooms == 18);

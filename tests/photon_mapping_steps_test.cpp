@@ -21,6 +21,7 @@
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/skipping.hpp"
+#include "support/mean.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/seed.hpp"
@@ -336,18 +337,12 @@ TEST_CASE("photon mapping: behind a matt surface no branch is spared by roulette
             rays[bright].push_back(counts.bounce_rays);
         }
     }
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < paths; ++i) {
-        const double more = double(rays[1][i]) - double(rays[0][i]);
-        sum += more;
-        squares += more * more;
-    }
-    const double mean = sum / paths;
-    const double error = std::sqrt((squares / paths - mean * mean) / paths);
-    CAPTURE(mean);
-    CAPTURE(error);
-    CHECK(std::abs(mean - albedo * through) < 5 * error);
-    CHECK(error < 0.01);
+    Mean more;
+    for (std::size_t i = 0; i < paths; ++i)
+        more.add(double(rays[1][i]) - double(rays[0][i]));
+    CAPTURE(more.mean);
+    CHECK(std::abs(more.mean - albedo * through) < 5 * more.error());
+    CHECK(more.error() < 0.01);
 }
 
 TEST_CASE("photon mapping: where a path ends that has gathered, and who shows a lamp") {
@@ -940,15 +935,8 @@ TEST_CASE("photon mapping: after gloss a path finds the lamps by its next ray") 
                 .shadow_rays = 3, .direct = direct, .indirect = indirect};
             settings.caustics.photons = settings.general.photons = 0;
             const PhotonMapper mapper(world, settings, abilities<Gathering>);
-            Mean mean;
-            for (std::uint64_t i = 0; i < 20000; ++i) {
-                auto stream =
-                    random_stream(test_seed(1 + int(direct)), Pass::user, 0, i);
-                Counts counts;
-                auto context = context_of(stream, counts);
-                mean.add(double(radiance(mapper, ray, context).x));
-            }
-            return mean;
+            return mean_radiance(mapper, 20000, 1 + std::uint64_t(direct),
+                                 [&](auto&) { return ray; });
         };
         const Mean right = mean_of(DirectLight::sampled, IndirectLight::rays);
         CAPTURE(roughness);

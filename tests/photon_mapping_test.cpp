@@ -10,12 +10,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 #include "support/student.hpp"
@@ -96,10 +95,6 @@ TEST_CASE("photon mapping: away from edges the bias falls with the square of the
         CAPTURE(seen[i].mean / exact);
         CAPTURE(seen[i].error() / exact);
         CAPTURE(right[i] / exact);
-        if (std::getenv("SHOW"))
-            std::printf("r %.2f bias %+.4f+-%.4f, predicted %+.4f\n", double(radii[i]),
-                        seen[i].mean / exact - 1, seen[i].error() / exact,
-                        right[i] / exact - 1);
         CHECK(chance_of(seen[i], right[i]) > 1e-6);
     }
     CAPTURE(more.mean);
@@ -154,12 +149,6 @@ TEST_CASE(
         CAPTURE(std::hypot(straight.error(), traced.error()) / traced.mean);
         CAPTURE(darker.mean);
         CAPTURE(darker.error());
-        if (std::getenv("SHOW"))
-            std::printf("map, %s: without bias %+.4f+-%.4f, from 0.04 to 0.16 "
-                        "%+.4f+-%.4f\n",
-                        name(ball), straight.mean / traced.mean - 1,
-                        std::hypot(straight.error(), traced.error()) / traced.mean,
-                        darker.mean, darker.error());
         CHECK(chance_of(straight, traced) > 1e-6);
         // A third of it is the bias at 0.04: below 1 %.
         CHECK(darker.mean < 0);
@@ -178,10 +167,7 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
     for (int i = 0; i < steps; ++i) {
         const double sine = a * std::sqrt((i + 0.5) / steps);
         const double ci = std::sqrt(1 - sine * sine);
-        const double ct = std::sqrt(1 - n * n * sine * sine); // n a < 1
-        const double s = (n * ci - ct) / (n * ci + ct);
-        const double p = (ci - n * ct) / (ci + n * ct);
-        mean_share += (s * s + p * p) / 2 / steps;
+        mean_share += ljus_test::fresnel_share(ci, n, 1) / steps;
     }
     const double ball = albedo * (1 - mean_share) * n * n / (1 - albedo * mean_share);
     const double right = 0.04 + 0.96 * ball / (n * n);
@@ -224,9 +210,6 @@ TEST_CASE("photon mapping: a matt ball embedded in glass in a furnace") {
         CAPTURE(seen.mean);
         CAPTURE(seen.error());
         CAPTURE(right);
-        if (std::getenv("SHOW"))
-            std::printf("furnace, %s: %.5f+-%.5f, right %.5f\n", way.name, seen.mean,
-                        seen.error(), right);
         CHECK(chance_of(seen, right) > 1e-6);
         CHECK(seen.error() < 0.01 * right); // four times what it is
     }
@@ -290,7 +273,5 @@ TEST_CASE("photon mapping: lamps and matt balls within clear and coloured glass"
             const double error = std::hypot(mapped.error(), traced.error());
             squared_errors += error * error / (traced.mean * traced.mean) / 6;
         }
-    if (std::getenv("SHOW"))
-        std::printf("within glass: %.4f\n", std::sqrt(squared_errors));
     CHECK(squared_errors < 0.023 * 0.023);
 }

@@ -6,12 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scenes/furnaces.hpp"
-#include "support/form_factor_facing.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 
@@ -277,10 +275,6 @@ TEST_CASE("radiosity: the same light as path tracing, as patches shrink") {
             const double h2 = mean_of(*coarse, grid, quarter).x;
             const double h4 = mean_of(*middle, grid, quarter).x;
             const double h8 = mean_of(*fine, grid, quarter).x;
-            if (std::getenv("SHOW"))
-                std::printf("%u %d: traced %+.4f+-%.4f, quarter %+.4f\n", grid, quarter,
-                            std::numbers::pi * traced.mean / h8 - 1, error / h8,
-                            h4 / h8 - 1);
             // What patches of 1/8 still lack is far less than the noise of 14000 paths,
             // some 1.2 %. One of the eight is a false alarm in 60 000 runs; with 20
             // further seeds there was none.

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "support/draws.hpp"
+#include "support/refusal.hpp"
 
 using ljus::Vec3T;
 using ljus_test::Draws;
@@ -133,13 +134,9 @@ TEST_CASE("refraction: GLM's function of the same name is not in the way") {
 }
 
 TEST_CASE("refraction: an index that no substance has is refused by name and value") {
-    const auto message = [](float index) -> std::string {
-        try {
-            ljus::detail::require_index("glass.index", index);
-        } catch (const std::invalid_argument& error) {
-            return error.what();
-        }
-        return "";
+    const auto message = [](float index) {
+        return ljus_test::refusal(
+            [&] { ljus::detail::require_index("glass.index", index); });
     };
     CHECK(message(1.5f).empty());
     CHECK(message(0.001f).empty());

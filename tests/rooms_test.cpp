@@ -16,6 +16,7 @@
 #include "ljus/scenes/furnaces.hpp"
 #include "ljus/scenes/report_rooms.hpp"
 #include "support/seed.hpp"
+#include "support/statistics.hpp"
 
 using namespace ljus;
 using ljus_test::test_seed;
@@ -24,23 +25,8 @@ namespace {
 
 constexpr int seeds = 16;
 
-// The mean radiance of a small picture of a room, one value a seed.
-struct Means {
-    std::array<glm::dvec3, seeds> of_seed{};
-
-    [[nodiscard]] glm::dvec3 mean() const {
-        glm::dvec3 sum{0};
-        for (const glm::dvec3& m : of_seed) sum += m;
-        return sum / double(seeds);
-    }
-
-    // The squared standard error of mean().
-    [[nodiscard]] glm::dvec3 error2() const {
-        glm::dvec3 sum{0};
-        for (const glm::dvec3& m : of_seed) sum += (m - mean()) * (m - mean());
-        return sum / double(seeds - 1) / double(seeds);
-    }
-};
+// The mean radiance of a small picture of a room, one value a seed and channel.
+using Means = std::array<ljus_test::Mean, 3>;
 
 template <typename MakeRenderer>
 Means means(const Camera& camera, int rays, const MakeRenderer& with_renderer) {
@@ -58,7 +44,7 @@ Means means(const Camera& camera, int rays, const MakeRenderer& with_renderer) {
                 REQUIRE(is_finite(c));
                 sum += glm::dvec3(c);
             }
-            all.of_seed[seed] = sum / 256.0;
+            for (int c = 0; c < 3; ++c) all[std::size_t(c)].add(sum[c] / 256);
         });
     return all;
 }
@@ -83,15 +69,14 @@ Means photon_means(const Room<Scene>& room, int rays, float radius) {
 // 5 by chance in 0.00016 of all cases. With the 24 comparisons of this file, one in
 // 260 choices of the seeds would give a false alarm; the seeds are fixed.
 void check_equal(const Means& a, const Means& b) {
-    for (int channel = 0; channel < 3; ++channel) {
-        const double difference = std::abs(a.mean()[channel] - b.mean()[channel]);
-        const double error = std::sqrt(a.error2()[channel] + b.error2()[channel]);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double error = std::hypot(a[channel].error(), b[channel].error());
         CAPTURE(channel);
-        CAPTURE(a.mean()[channel]);
-        CAPTURE(b.mean()[channel]);
+        CAPTURE(a[channel].mean);
+        CAPTURE(b[channel].mean);
         CAPTURE(error);
-        CHECK(difference <= 5 * error);
-        CHECK(error < 0.025 * a.mean()[channel]); // or it would say nothing
+        CHECK(std::abs(a[channel].mean - b[channel].mean) <= 5 * error);
+        CHECK(error < 0.025 * a[channel].mean); // or it would say nothing
     }
 }
 
@@ -506,7 +491,7 @@ TEST_CASE("rooms: both renderers find the same light") {
 TEST_CASE("rooms: a furnace emits L / (1 - a) in every direction") {
     const auto check_furnace = [](const Means& found, const Rgb& exact) {
         Means expected;
-        expected.of_seed.fill(glm::dvec3(exact));
+        for (int c = 0; c < 3; ++c) expected[std::size_t(c)].add(double(exact[c]));
         check_equal(expected, found);
     };
     const Rgb emission{0.5f, 1, 2};

@@ -28,12 +28,15 @@
 #include "ljus/scene/camera.hpp"
 #include "ljus/scene/world.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
+#include "support/block_means.hpp"
+#include "support/box_sides.hpp"
 #include "support/mean.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
 #include "support/student.hpp"
 
 using namespace ljus;
+using ljus_test::BlockMeans;
 using ljus_test::chance_of;
 using ljus_test::Mean;
 
@@ -44,30 +47,13 @@ using Room = Scene<Shapes<Sphere, Quad, Mesh>, Materials<Lambertian, RoughGlass>
 constexpr int across = 2, side = 24; // blocks on a side, and pixels
 constexpr int blocks = across * across;
 
-/// A closed box of quads whose normals point outwards.
-void add_box(Room& room, const Vec3& low, const Vec3& high, MaterialId material) {
-    const Vec3 e = high - low, x{e.x, 0, 0}, y{0, e.y, 0}, z{0, 0, e.z};
-    room.add(Quad{low, x, z}, material);
-    room.add(Quad{low + y, z, x}, material);
-    room.add(Quad{low, y, x}, material);
-    room.add(Quad{low + z, x, y}, material);
-    room.add(Quad{low, z, y}, material);
-    room.add(Quad{low + x, y, z}, material);
-}
-
 /// A closed room of 2 by 2 by 2, grey, with a red and a green wall.
 Room walls() {
     Room room;
     const auto grey = room.add(Lambertian{.albedo = Rgb{0.6f}});
     const auto red = room.add(Lambertian{.albedo{0.6f, 0.2f, 0.2f}});
     const auto green = room.add(Lambertian{.albedo{0.2f, 0.6f, 0.2f}});
-    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, low{-1, -1, -1};
-    room.add(Quad{low, z, x}, grey);
-    room.add(Quad{low + y, x, z}, grey);
-    room.add(Quad{low, x, y}, grey);
-    room.add(Quad{low + z, y, x}, grey);
-    room.add(Quad{low, y, z}, red);
-    room.add(Quad{low + x, z, y}, green);
+    ljus_test::add_room(room, Vec3{-1}, Vec3{1}, {grey, grey, grey, grey, red, green});
     return room;
 }
 
@@ -77,7 +63,7 @@ World<Room> slab_room(float roughness) {
     const auto glass =
         room.add(RoughGlass{.roughness = roughness, .absorption{0.5f, 0, 0.2f}});
     const auto black = room.add(Lambertian{.albedo = Rgb{0}});
-    add_box(room, {-0.7f, -0.4f, -0.7f}, {0.7f, -0.1f, 0.5f}, glass);
+    ljus_test::add_block(room, {-0.7f, -0.4f, -0.7f}, {0.7f, -0.1f, 0.5f}, glass);
     room.add(Quad{{-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}}, black, Rgb{6});
     return World(std::move(room));
 }
@@ -102,25 +88,6 @@ World<Room> coarse_ball(float roughness) {
     room.add(Quad{{-0.4f, 0.98f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}}, black, Rgb{6});
     return World(std::move(room));
 }
-
-/// The means of the blocks and of the whole picture, over several seeds.
-struct Blocks {
-    std::array<Mean, blocks + 1> of;
-
-    void add(const Image& image) {
-        std::array<double, blocks + 1> sum{};
-        const int block = side / across;
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                const Rgb& c = pixel(image, x, y);
-                const double value = double(c.x + c.y + c.z) / 3;
-                sum[std::size_t(y / block * across + x / block)] +=
-                    value / (block * block);
-                sum[blocks] += value / (side * side);
-            }
-        for (std::size_t b = 0; b <= blocks; ++b) of[b].add(sum[b]);
-    }
-};
 
 /// A way of carrying light.
 struct Carrier {
@@ -164,12 +131,12 @@ PhotonMappingSettings settings_of(const Carrier& carrier, std::uint64_t seed) {
 
 /// Compares all carriers in one scene.
 void compare(const std::string& name, const World<Room>& world, double risk) {
-    Blocks traced;
+    BlockMeans traced{side / across};
     for (std::uint64_t s = 1; s <= 12; ++s)
         traced.add(render(PathTracer(world), camera(), picture(64, 700 + s)).image);
-    const double whole = traced.of[blocks].mean;
+    const double whole = traced.of.back().mean;
     for (const Carrier& carrier : carriers) {
-        Blocks found;
+        BlockMeans found{side / across};
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {
             const auto how = picture(16, seed);
             PhotonMapper mapper(world, settings_of(carrier, seed),
@@ -188,7 +155,7 @@ void compare(const std::string& name, const World<Room>& world, double risk) {
             most = std::max(most, std::abs(here.mean / right.mean - 1));
         }
         MESSAGE(name, ", ", std::string(carrier.name), ": ",
-                100 * (found.of[blocks].mean / whole - 1), " %, a block ", 100 * most,
+                100 * (found.of.back().mean / whole - 1), " %, a block ", 100 * most,
                 " % off");
     }
 }
@@ -240,10 +207,10 @@ TEST_CASE("rough glass scenes: two blocks that touch are one") {
             room.add(RoughGlass{.roughness = 0.6f, .absorption{0.5f, 0, 0}});
         const auto black = room.add(Lambertian{.albedo = Rgb{0}});
         if (halved) {
-            add_box(room, {-1, -1, -1}, {1, 0, 1}, glass);
-            add_box(room, {-1, 0, -1}, {1, 1, 1}, glass);
+            ljus_test::add_block(room, {-1, -1, -1}, {1, 0, 1}, glass);
+            ljus_test::add_block(room, {-1, 0, -1}, {1, 1, 1}, glass);
         } else {
-            add_box(room, {-1, -1, -1}, {1, 1, 1}, glass);
+            ljus_test::add_block(room, {-1, -1, -1}, {1, 1, 1}, glass);
         }
         room.add(Sphere{{0, -0.8f, -2.6f}, 1}, black, Rgb{1});
         return World(std::move(room));

@@ -19,6 +19,7 @@
 #include "ljus/photons/tracing.hpp"
 #include "ljus/scene/world.hpp"
 #include "own_light.hpp"
+#include "support/closed_forms.hpp"
 #include "support/integrate.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
@@ -192,12 +193,7 @@ TEST_CASE("scene aim: far lamps bring a floor the flux of their form factor") {
     stage.scene.add(Quad{{-1, -1, 12}, {0, 2, 0}, {2, 0, 0}}, stage.black, Rgb{2});
     const World quad(stage.scene);
     const Means found = land_often(quad);
-    // Between equal, parallel squares of side a at distance c, with x = a / c.
-    const double x = 2.0 / 12, x1 = 1 + x * x;
-    const double factor =
-        2 / (pi * x * x) *
-        (std::log(x1 / std::sqrt(1 + 2 * x * x)) +
-         2 * x * std::sqrt(x1) * std::atan(x / std::sqrt(x1)) - 2 * x * std::atan(x));
+    const double factor = ljus_test::form_factor_facing(2, 2, 12);
     CHECK(found.flux.agrees_with(2 * pi * 4 * factor));
     CHECK(found.quarter.agrees_with(2 * pi * factor));
     CHECK(found.kept.mean > 0.5);

@@ -17,6 +17,7 @@
 #include "ljus/io/scene_schema.hpp"
 #include "scratch_folder.hpp"
 #include "support/json_schema.hpp"
+#include "support/refusal.hpp"
 #include "support/scene_page.hpp"
 
 using namespace ljus;
@@ -41,12 +42,9 @@ struct NothingRead {
 };
 
 std::string refusal(const json& scene) {
-    try {
+    return ljus_test::refusal<std::runtime_error>([&] {
         (void)read_json_scene(scene.dump(), LJUS_TEST_INPUTS "/a.json", NothingRead{});
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 /// Both judge alike.

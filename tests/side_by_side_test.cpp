@@ -7,8 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -66,9 +64,6 @@ void same(const std::vector<Mean>& a, const std::vector<Mean>& b, double bias) {
         CHECK(chance_of(a[i], b[i], bias * b[i].mean) > 1e-6);
         CHECK(4 * error < 0.03 * b[i].mean); // it is a comparison
         worst = std::max(worst, off / b[i].mean);
-        if (std::getenv("SHOW"))
-            std::printf("block %zu: %+.4f+-%.4f, bias %.2f\n", i,
-                        a[i].mean / b[i].mean - 1, error / b[i].mean, bias);
     }
     MESSAGE("largest relative difference of a block ", worst, ", allowed bias ", bias);
 }
@@ -116,9 +111,6 @@ TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
         CAPTURE(mean.mean);
         CAPTURE(truth.mean);
         const double error = std::hypot(mean.error(), truth.error());
-        if (std::getenv("SHOW"))
-            std::printf("direct, %s: %+.4f+-%.4f\n", name.c_str(),
-                        mean.mean / truth.mean - 1, error / truth.mean);
         CHECK(4 * error < 0.03 * truth.mean);
         CHECK(chance_of(mean, truth, bias * truth.mean) > 1e-6);
     };
@@ -174,7 +166,6 @@ TEST_CASE("side_by_side: the matt room, by all renderers that carry its light") 
             all += seen[i].mean;
             right += truth[i].mean;
         }
-        if (std::getenv("SHOW")) std::printf("edges: %.4f\n", all / right);
         CHECK(all < 0.995 * right); // a disc reaches over the edge of a wall
     }
     SUBCASE("radiosity: 2 % with patches of 0.25") {

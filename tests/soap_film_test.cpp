@@ -11,8 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -270,10 +268,6 @@ TEST_CASE("thin sheets: a bubble in a furnace cannot be seen") {
         for (int channel = 0; channel < 3; ++channel) {
             const Mean traced = mean_radiance(tracer, 20000, 3, ray, channel);
             const Mean mapped = mean_radiance(mapper, 2000, 5, ray, channel);
-            if (std::getenv("SHOW"))
-                std::printf("furnace %d %d: %+.4f+-%.4f, mapped %+.4f+-%.4f\n",
-                            int(color), channel, traced.mean - 1, traced.error(),
-                            mapped.mean - 1, mapped.error());
             // One of nine is a false alarm in 50 000 runs.
             CHECK(std::abs(apart(traced, 1.0)) < once_in_a_million);
             CHECK(traced.error() < 0.006);
@@ -364,9 +358,6 @@ TEST_CASE("thin sheets: photon mapping equals path tracing in a room with a bubb
             const auto& a = mapped[band][k];
             const auto& b = traced[band][k];
             const double error = std::hypot(a.error(), b.error()) / b.mean;
-            if (std::getenv("SHOW"))
-                std::printf("band %d %d: %+.4f+-%.4f, chance %.1e\n", band, k,
-                            a.mean / b.mean - 1, error, chance_of(a, b));
             worst = std::min(worst, chance_of(a, b));
             squared += error * error / 12;
         }

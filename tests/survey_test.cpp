@@ -162,32 +162,9 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.general_map.on);
     CHECK_FALSE(plan.shadow_photons.on);
     CHECK(plan.shadow_photons.why == "no map keeps them");
-    settings.general.photons = 0;
-    CHECK_FALSE(survey(matt, settings).general_map.on);
-
-    settings = {};
-    settings.indirect = IndirectLight::photons; // no ray, but the map
-    plan = survey(matt, settings);
-    CHECK_FALSE(plan.indirect_rays.on);
-    CHECK(plan.general_map.on);
-
     settings = {};
     settings.keep_general_map = true;
     CHECK(survey(matt, settings).general_map.on);
-
-    settings = {};
-    settings.max_depth = 1;
-    plan = survey(matt, settings);
-    CHECK_FALSE(plan.indirect_rays.on);
-    CHECK(plan.indirect_rays.why == "the depth ends at the first surface");
-    settings.indirect = IndirectLight::map; // no gather ray is sent at depth 1
-    CHECK_FALSE(survey(matt, settings).general_map.on);
-
-    settings = {};
-    settings.indirect = IndirectLight::none;
-    plan = survey(matt, settings);
-    CHECK_FALSE(plan.indirect_rays.on);
-    CHECK(plan.indirect_rays.why == "not asked for");
 
     plan = survey(world, PhotonMappingSettings{});
     CHECK_FALSE(plan.shadow_rays.on);
@@ -201,33 +178,6 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
         CHECK(std::string(item->pass).size() > 0);
         CHECK(item->why.size() > 0);
     }
-}
-
-TEST_CASE("survey: without a diffuse surface nothing is lit, whatever shines") {
-    BallRoom hall;
-    hall.add(Sphere{}, hall.add(Mirror{}));
-    hall.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
-    const World world(std::move(hall));
-    PhotonMappingSettings settings{.indirect = IndirectLight::photons,
-                                   .keep_general_map = true};
-    const SceneNeeds found = needs(world);
-    CHECK(found.diffuse == 0);
-    CHECK(found.specular == 1);
-    CHECK(found.lights == 1);
-    const Plan plan = survey(world, settings);
-    for (const PlanItem* item :
-         {&plan.shadow_rays, &plan.indirect_rays, &plan.caustics_map, &plan.general_map,
-          &plan.shadow_photons, &plan.thin_film, &plan.tree}) {
-        CAPTURE(item->pass);
-        CHECK_FALSE(item->on);
-    }
-    CHECK(plan.shadow_rays.why ==
-          "0 of 1 objects reflect diffusely, lit by 1 light(s)");
-    CHECK(plan.indirect_rays.why == "nothing is lit");
-    CHECK(plan.caustics_map.why == "nothing is lit");
-    CHECK(plan.shadow_photons.why == "no map keeps them");
-    CHECK(plan.thin_film.why == "no material is a thin film");
-    CHECK(plan.tree.why == "1 object(s), a loop tests each");
 }
 
 TEST_CASE("survey: the lines as they are printed, and one photon is enough") {
@@ -267,29 +217,6 @@ TEST_CASE("survey: what the plan leaves out is not done") {
     add_lamps(lit, Lamp::quad, 1);
     const World lit_world(std::move(lit));
     CHECK(PhotonMapper(lit_world).bounces() == Lobes::all);
-}
-
-TEST_CASE("survey: settings that give no picture are refused") {
-    const ClosedRoom empty{BallRoom{}};
-    const auto refused = [&](auto change) {
-        PhotonMappingSettings settings;
-        change(settings);
-        const std::string sentence = refusal([&] { check(settings); });
-        CHECK_FALSE(sentence.empty());
-        CHECK(refusal([&] { (void)PhotonMapper(empty, settings); }) == sentence);
-    };
-    CHECK_NOTHROW(check(PhotonMappingSettings{}));
-    refused([](PhotonMappingSettings& s) { s.max_depth = 0; });
-    refused([](PhotonMappingSettings& s) { s.caustics.photons = -1; });
-    refused([](PhotonMappingSettings& s) { s.general.photons = -1; });
-    refused([](PhotonMappingSettings& s) { s.caustics_estimate.radius = -0.1f; });
-    refused([](PhotonMappingSettings& s) {
-        s.general_estimate.radius = std::numeric_limits<float>::quiet_NaN();
-    });
-    refused(
-        [](PhotonMappingSettings& s) { s.general_estimate.nearest = max_nearest + 1; });
-    refused([](PhotonMappingSettings& s) { s.caustics_estimate.thickness = -1; });
-    refused([](PhotonMappingSettings& s) { s.skip.risk = 0; });
 }
 
 TEST_CASE("survey: a hook that is misspelt shows") {

@@ -25,6 +25,7 @@
 #include "support/bsdf_checks.hpp"
 #include "support/jpeg_segment.hpp"
 #include "support/little_memory.hpp"
+#include "support/refusal.hpp"
 
 #if __has_include(<stb/stb_image.h>)
 #include "ljus/io/load_image.hpp"
@@ -440,101 +441,14 @@ TEST_CASE("texture: each shape has its own coordinates") {
 }
 
 #if __has_include(<stb/stb_image.h>)
-TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named") {
-    const ScratchFolder folder;
-    const std::string path = folder.file("four.png");
-    save_png(four(), path);
-    CHECK(load_image(path).pixels == four().pixels);
-    Image grey = make_image<float>(3, 1, Rgb{0.2f});
-    const Image back = decode_image(encode_png(grey), "grey.png");
-    CHECK(back.width == 3);
-    CHECK(back.pixels[1].x == doctest::Approx(0.2).epsilon(0.01));
-
-    const auto said = [](auto f) -> std::string {
-        try {
-            f();
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
-    };
-    CHECK(said([&] { (void)load_image(folder.file("none.png")); }) ==
-          "cannot read '" + folder.file("none.png") + "': No such file or directory.");
-    Bytes bytes = encode_png(four());
-    bytes.resize(bytes.size() / 2);
-    CHECK(said([&] {
-              (void)decode_image(bytes, "half.png");
-          }).find("half.png is damaged: ") == 0);
-    // Impossible sizes: of a bitmap, 0 x 0 and 2^30 x 2^30.
-    for (const int high : {0x00, 0x40}) {
-        Bytes bitmap(54 + 4);
-        const Bytes head{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
-        std::copy(head.begin(), head.end(), bitmap.begin());
-        bitmap[21] = bitmap[25] = static_cast<unsigned char>(high);
-        bitmap[26] = 1;
-        bitmap[28] = 24;
-        CHECK(said([&] { (void)decode_image(bitmap, "b\n.bmp"); }).find("b?.bmp ") ==
-              0);
-    }
-    // A bitmap packs nothing: one of 100 x 100 pixels without them is cut short.
-    Bytes cut(54 + 4);
-    const Bytes front{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
-    std::copy(front.begin(), front.end(), cut.begin());
-    cut[18] = cut[22] = 100;
-    cut[26] = 1;
-    cut[28] = 24;
-    CHECK(said([&] { (void)decode_image(cut, "cut.bmp"); }) ==
-          "cut.bmp is damaged: it ends in the middle of its pixels.");
-    CHECK(said([&] {
-              (void)decode_image({}, "empty.png");
-          }).find("empty.png is not a picture that can be read: ") == 0);
-}
-
-TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
-    const std::string apple = LJUS_TEST_INPUTS "/cgbi_red.png";
-    std::string said;
-    try {
-        (void)load_image(apple);
-    } catch (const std::runtime_error& error) {
-        said = error.what();
-    }
-    CHECK(said == apple +
-                      " is a PNG file of Apple's own kind (CgBI), which has red and "
-                      "blue exchanged; save it as plain PNG.");
-    // A chunk between the header, which ends at byte 33, and the pixels.
-    const auto with = [](const std::string& name, std::uint32_t value, bool as_number) {
-        Bytes file = encode_png(make_image<float>(2, 1, Rgb{0.5f}));
-        Bytes chunk{0, 0, 0, static_cast<unsigned char>(as_number ? 4 : 1)};
-        chunk.insert(chunk.end(), name.begin(), name.end());
-        for (int shift = as_number ? 24 : 0; shift >= 0; shift -= 8)
-            chunk.push_back(static_cast<unsigned char>(value >> shift & 255u));
-        const std::uint32_t sum = detail::png_sum(chunk, 4, chunk.size());
-        for (int shift = 24; shift >= 0; shift -= 8)
-            chunk.push_back(static_cast<unsigned char>(sum >> shift & 255u));
-        file.insert(file.begin() + 33, chunk.begin(), chunk.end());
-        return file;
-    };
-    // sRGB of 0.5 is byte 188.
-    const auto shown = [](const Bytes& file) {
-        return double(decode_image(file, "a").pixels[1].y);
-    };
-    CHECK(shown(with("gAMA", 100000, true)) == doctest::Approx(188 / 255.0));
-    CHECK(shown(with("gAMA", 50000, true)) ==
-          doctest::Approx(188 / 255.0 * (188 / 255.0)));
-    const double srgb = shown(with("teXt", 0, true));
-    CHECK(srgb == doctest::Approx(0.5).epsilon(0.01));
-    CHECK(shown(with("gAMA", 45455, true)) == srgb);
-    CHECK(shown(with("sRGB", 0, false)) == srgb);
-    // Primaries and transfer by number: of sRGB, of HDR television, of Display P3.
-    CHECK(shown(with("cICP", 0x010d0001, true)) == srgb);
-    for (const std::uint32_t other :
-         {0x09100001u, 0x0c0d0001u, 0x01080001u, 0x010d0000u})
-        CHECK_THROWS_WITH((void)shown(with("cICP", other, true)),
-                          "a has other colours than those of sRGB, as its cICP chunk "
-                          "says; save it as sRGB.");
-}
-
 namespace {
+
+/// Why a file is not decoded; empty if it is.
+std::string trouble_with(const Bytes& file,
+                         PictureContent content = PictureContent::colors) {
+    return refusal<std::runtime_error>(
+        [&] { (void)decode_image(file, "a", 0, content); });
+}
 
 void add_big(Bytes& to, std::uint32_t value, int bytes) {
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
@@ -656,15 +570,73 @@ Bytes jpeg_with(Bytes file, unsigned kind, std::string_view head,
 
 } // namespace
 
-TEST_CASE("texture: colours of other profiles are refused by their name") {
-    const auto said = [](const Bytes& file, PictureContent content) -> std::string {
-        try {
-            (void)decode_image(file, "a", 0, content);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("four.png");
+    save_png(four(), path);
+    CHECK(load_image(path).pixels == four().pixels);
+    Image grey = make_image<float>(3, 1, Rgb{0.2f});
+    const Image back = decode_image(encode_png(grey), "grey.png");
+    CHECK(back.width == 3);
+    CHECK(back.pixels[1].x == doctest::Approx(0.2).epsilon(0.01));
+
+    CHECK(refusal<std::runtime_error>(
+              [&] { (void)load_image(folder.file("none.png")); }) ==
+          "cannot read '" + folder.file("none.png") + "': No such file or directory.");
+    Bytes bytes = encode_png(four());
+    bytes.resize(bytes.size() / 2);
+    CHECK(trouble_with(bytes).starts_with("a is damaged: "));
+    // Of a bitmap, impossible sizes: 0 x 0 and 2^30 x 2^30. It packs nothing: one of
+    // 100 x 100 pixels without them is cut short.
+    const auto bitmap = [](int side, int high) {
+        Bytes file{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+        file.resize(54 + 4);
+        file[18] = file[22] = static_cast<unsigned char>(side);
+        file[21] = file[25] = static_cast<unsigned char>(high);
+        file[26] = 1;
+        file[28] = 24;
+        return file;
     };
+    for (const int high : {0x00, 0x40})
+        CHECK(refusal<std::runtime_error>([&] {
+                  (void)decode_image(bitmap(0, high), "b\n.bmp");
+              }).starts_with("b?.bmp "));
+    CHECK(trouble_with(bitmap(100, 0)) ==
+          "a is damaged: it ends in the middle of its pixels.");
+    CHECK(trouble_with({}).starts_with("a is not a picture that can be read: "));
+}
+
+TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
+    const std::string apple = LJUS_TEST_INPUTS "/cgbi_red.png";
+    CHECK(refusal<std::runtime_error>([&] { (void)load_image(apple); }) ==
+          apple + " is a PNG file of Apple's own kind (CgBI), which has red and "
+                  "blue exchanged; save it as plain PNG.");
+    const auto with = [](const std::string& name, std::uint32_t value, bool as_number) {
+        Bytes content;
+        add_big(content, value, as_number ? 4 : 1);
+        return png_with(encode_png(make_image<float>(2, 1, Rgb{0.5f})), name, content);
+    };
+    // sRGB of 0.5 is byte 188.
+    const auto shown = [](const Bytes& file) {
+        return double(decode_image(file, "a").pixels[1].y);
+    };
+    CHECK(shown(with("gAMA", 100000, true)) == doctest::Approx(188 / 255.0));
+    CHECK(shown(with("gAMA", 50000, true)) ==
+          doctest::Approx(188 / 255.0 * (188 / 255.0)));
+    const double srgb = shown(with("teXt", 0, true));
+    CHECK(srgb == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(shown(with("gAMA", 45455, true)) == srgb);
+    CHECK(shown(with("sRGB", 0, false)) == srgb);
+    // Primaries and transfer by number: of sRGB, of HDR television, of Display P3.
+    CHECK(shown(with("cICP", 0x010d0001, true)) == srgb);
+    for (const std::uint32_t other :
+         {0x09100001u, 0x0c0d0001u, 0x01080001u, 0x010d0000u})
+        CHECK_THROWS_WITH((void)shown(with("cICP", other, true)),
+                          "a has other colours than those of sRGB, as its cICP chunk "
+                          "says; save it as sRGB.");
+}
+
+TEST_CASE("texture: colours of other profiles are refused by their name") {
     const auto other = [](const std::string& what) {
         return "a has other colours than those of sRGB, as " + what +
                " says; save it as sRGB.";
@@ -674,7 +646,7 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
     const Bytes gamma = curve_of_gamma(2.2), table = curve_of_table(srgb_decode);
     const Bytes numbers =
         curve_of_numbers(3, {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045});
-    REQUIRE(said(jpeg, PictureContent::colors).empty());
+    REQUIRE(trouble_with(jpeg).empty());
 
     struct Row {
         Bytes profile;
@@ -705,21 +677,21 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
                                 : row.why.empty()
                                     ? ""
                                     : other("its colour profile " + row.why);
-        CHECK(said(png_with_profile(png, row.profile), PictureContent::colors) == why);
+        CHECK(trouble_with(png_with_profile(png, row.profile)) == why);
         // A JPEG file has it in pieces, in any order.
         const auto half = row.profile.begin() + 100;
         Bytes file = jpeg_with(jpeg, 0xe2, {"ICC_PROFILE\0\1\2", 14},
                                Bytes(row.profile.begin(), half));
         file = jpeg_with(file, 0xe2, {"ICC_PROFILE\0\2\2", 14},
                          Bytes(half, row.profile.end()));
-        CHECK(said(file, PictureContent::colors) == why);
+        CHECK(trouble_with(file) == why);
         // What is no colour is read as it is.
-        CHECK(said(file, PictureContent::numbers).empty());
+        CHECK(trouble_with(file, PictureContent::numbers).empty());
     }
     // Not packed as it should be.
-    CHECK(said(png_with(png, "iCCP", {'a', 0, 0, 1, 2, 3}), PictureContent::colors) ==
+    CHECK(trouble_with(png_with(png, "iCCP", {'a', 0, 0, 1, 2, 3})) ==
           other("its colour profile"));
-    CHECK(said(png_with(png, "iCCP", {'a', 'b'}), PictureContent::colors) ==
+    CHECK(trouble_with(png_with(png, "iCCP", {'a', 'b'})) ==
           other("its colour profile"));
 
     // Primaries by themselves, behind those of white; of two chunks, sRGB counts.
@@ -732,12 +704,9 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
         primaries({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000});
     const Bytes adobe =
         primaries({31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000});
-    CHECK(said(png_with(png, "cHRM", those), PictureContent::colors).empty());
-    CHECK(said(png_with(png, "cHRM", adobe), PictureContent::colors) ==
-          other("its cHRM chunk"));
-    CHECK(said(png_with(png_with(png, "cHRM", adobe), "sRGB", {0}),
-               PictureContent::colors)
-              .empty());
+    CHECK(trouble_with(png_with(png, "cHRM", those)).empty());
+    CHECK(trouble_with(png_with(png, "cHRM", adobe)) == other("its cHRM chunk"));
+    CHECK(trouble_with(png_with(png_with(png, "cHRM", adobe), "sRGB", {0})).empty());
 
     // What a camera that is set to Adobe RGB writes: no profile, but the rule R03 in a
     // list of the list of EXIF fields. And the number of Adobe RGB.
@@ -763,9 +732,9 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
     };
     for (const bool by_rule : {true, false}) {
         const Bytes file = jpeg_with(jpeg, 0xe1, {"Exif\0\0", 6}, exif(by_rule));
-        CHECK(said(file, PictureContent::colors) == other("its EXIF data"));
-        CHECK(said(jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile),
-                   PictureContent::colors)
+        CHECK(trouble_with(file) == other("its EXIF data"));
+        CHECK(trouble_with(
+                  jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile))
                   .empty());
     }
 
@@ -799,7 +768,7 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
     };
     const std::uint32_t embedded = 0x4d424544, linked = 0x4c494e4b, srgb = 0x73524742;
     const auto bmp_said = [&](std::uint32_t kind, const Bytes& profile, bool p3) {
-        return said(bmp(kind, profile, p3), PictureContent::colors);
+        return trouble_with(bmp(kind, profile, p3));
     };
     CHECK(bmp_said(0, {}, false).empty());
     CHECK(bmp_said(srgb, {}, true).empty());
@@ -881,13 +850,9 @@ TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
 
 TEST_CASE("texture: files that other readers of pictures had trouble with") {
     const std::string folder = LJUS_TEST_INPUTS "/";
-    const auto refusal = [&](const std::string& name) -> std::string {
-        try {
-            (void)load_image(folder + name);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what()).substr((folder + name).size());
-        }
-        return "";
+    const auto refused = [&](const std::string& name) {
+        return refusal<std::runtime_error>([&] { (void)load_image(folder + name); })
+            .substr((folder + name).size());
     };
     // Indices 0 to 3 into a palette of red and green.
     CHECK(load_image(folder + "short_palette.png").pixels ==
@@ -907,25 +872,17 @@ TEST_CASE("texture: files that other readers of pictures had trouble with") {
     CHECK(ink.x == doctest::Approx(srgb_decode(200 / 255.0)));
     CHECK(ink.y == doctest::Approx(srgb_decode(31 / 255.0)));
     CHECK(ink.z == doctest::Approx(srgb_decode(71 / 255.0)));
-    CHECK(refusal("four_channels.jpg") ==
+    CHECK(refused("four_channels.jpg") ==
           " is a JPEG file of four channels that does not say what they mean; save it "
           "as RGB.");
-    CHECK(refusal("twelve_bits.jpg") ==
+    CHECK(refused("twelve_bits.jpg") ==
           " is a JPEG file of more than 8 bits per channel; save it with 8 bits.");
-    CHECK(refusal("arithmetic.jpg") ==
+    CHECK(refused("arithmetic.jpg") ==
           " is a JPEG file that is lossless, in layers or coded arithmetically; save "
           "it as baseline JPEG or PNG.");
 }
 
 TEST_CASE("texture: BMP files from the top, of few colours, cut off and compressed") {
-    const auto refusal_of = [](const Bytes& bytes) -> std::string {
-        try {
-            (void)decode_image(bytes, "a");
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
-    };
     // `colors` are those of its palette: blue, green, red, and a byte for nothing.
     const auto bmp = [](int width, int height, int bits, const Bytes& colors,
                         const Bytes& pixels, int compression = 0) {
@@ -970,25 +927,17 @@ TEST_CASE("texture: BMP files from the top, of few colours, cut off and compress
     const Bytes whole = bmp(3, 2, 24, {}, Bytes(24, 200));
     const std::string ends = "a is damaged: it ends in the middle of its pixels.";
     for (std::size_t size = 54; size < whole.size() - 3; ++size)
-        CHECK(refusal_of(Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size))) ==
-              ends);
-    CHECK(refusal_of(Bytes(whole.begin(), whole.end() - 3)).empty());
-    CHECK(refusal_of(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
+        CHECK(trouble_with(
+                  Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size))) == ends);
+    CHECK(trouble_with(Bytes(whole.begin(), whole.end() - 3)).empty());
+    CHECK(trouble_with(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
               .find("a has 1 x 2147483648") == 0);
-    CHECK(refusal_of(bmp(8, 1, 8, two, {8, 1, 0, 0, 0, 1}, 1)) ==
+    CHECK(trouble_with(bmp(8, 1, 8, two, {8, 1, 0, 0, 0, 1}, 1)) ==
           "a is a BMP file that is compressed; save it without, or as PNG.");
 }
 
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
           "PNG files only whole ones") {
-    const auto refusal_of = [](const Bytes& bytes) -> std::string {
-        try {
-            (void)decode_image(bytes, "a");
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
-    };
     const std::string other = "a is not a picture that can be read: it is neither "
                               "PNG, JPEG nor BMP.";
     // Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
@@ -998,36 +947,30 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
           std::string_view("\0\0\2", 3)}) {
         Bytes bytes(130, 1);
         std::copy(begin.begin(), begin.end(), bytes.begin());
-        CHECK(refusal_of(bytes) == other);
+        CHECK(trouble_with(bytes) == other);
     }
     // Any bit turned over, and any end: stb_image asks for no sum.
     const Bytes whole = encode_png(four());
-    REQUIRE(refusal_of(whole).empty());
+    REQUIRE(trouble_with(whole).empty());
     for (std::size_t i = 8; i < whole.size(); ++i) {
         Bytes damaged = whole;
         damaged[i] = static_cast<unsigned char>(damaged[i] ^ 4u);
-        REQUIRE(refusal_of(damaged).find("a is damaged: ") == 0);
+        REQUIRE(trouble_with(damaged).find("a is damaged: ") == 0);
         damaged.resize(i);
-        REQUIRE(refusal_of(damaged).find("a is damaged: it ends ") == 0);
+        REQUIRE(trouble_with(damaged).find("a is damaged: it ends ") == 0);
     }
     // Bytes behind the last chunk are none of the picture, and are not read as chunks.
     Bytes longer = whole;
     longer.insert(longer.end(), {0, 0, 0, 0, 't', 'e', 'X', 't', 1, 2, 3, 4});
-    CHECK(refusal_of(longer).empty());
+    CHECK(trouble_with(longer).empty());
     longer.resize(33); // the header; no pixels
     longer.insert(longer.end(), whole.end() - 12, whole.end());
     longer.insert(longer.end(),
                   {0x7f, 0xff, 0xff, 0xff, 't', 'e', 'X', 't', 0, 0, 0, 0});
     longer.insert(longer.end(), 12, 0);
-    CHECK(refusal_of(longer).find("a is damaged") == 0);
+    CHECK(trouble_with(longer).find("a is damaged") == 0);
     // A critical chunk whose name is not of letters.
-    Bytes chunk{0, 0, 0, 0, 'A', 0x1b, 0xff, '\n'};
-    const std::uint32_t sum = detail::png_sum(chunk, 4, 8);
-    for (const int shift : {24, 16, 8, 0})
-        chunk.push_back(static_cast<unsigned char>(sum >> shift & 255u));
-    Bytes strange = whole;
-    strange.insert(strange.begin() + 33, chunk.begin(), chunk.end());
-    const std::string sentence = refusal_of(strange);
+    const std::string sentence = trouble_with(png_with(whole, {"A\x1b\xff\n", 4}, {}));
     CHECK(sentence.find("a is ") == 0);
     for (const char c : sentence) CHECK((c >= ' ' && c < 0x7f));
     // A JPEG file whose table has more entries than stb_image has room for.
@@ -1035,50 +978,50 @@ TEST_CASE("texture: of pictures only those are read whose reader is trusted, and
     jpeg.insert(jpeg.end(), 16, 0);
     jpeg[7 + 8] = 255;
     jpeg.resize(400);
-    CHECK(refusal_of(jpeg) != "a is damaged: a table has more than 255 entries.");
+    CHECK(trouble_with(jpeg) != "a is damaged: a table has more than 255 entries.");
     jpeg[7 + 15] = 1;
-    CHECK(refusal_of(jpeg) == "a is damaged: a table has more than 255 entries.");
+    CHECK(trouble_with(jpeg) == "a is damaged: a table has more than 255 entries.");
     // A header with another byte and the right sum.
+    const auto resummed = [](Bytes png) {
+        const std::uint32_t sum = detail::png_sum(png, 12, 29);
+        for (std::size_t i = 0; i < 4; ++i)
+            png[29 + i] = static_cast<unsigned char>(sum >> (24 - 8 * i) & 255u);
+        return png;
+    };
     const auto with = [&](std::initializer_list<std::size_t> places,
                           unsigned char byte) {
-        Bytes other_file = whole;
-        for (const std::size_t at : places) other_file[at] = byte;
-        const std::uint32_t new_sum = detail::png_sum(other_file, 12, 29);
-        for (std::size_t i = 0; i < 4; ++i)
-            other_file[29 + i] =
-                static_cast<unsigned char>(new_sum >> (24 - 8 * i) & 255u);
-        return other_file;
+        Bytes changed = whole;
+        for (const std::size_t at : places) changed[at] = byte;
+        return resummed(changed);
     };
     // Sizes that would take gigabytes; stb_image knows the larger ones for no picture.
-    CHECK(refusal_of(with({18, 22}, 0x40)) ==
+    CHECK(trouble_with(with({18, 22}, 0x40)) ==
           "a has 16386 x 16386 pixels; there must be 1 to 33554432.");
-    CHECK(refusal_of(with({18, 22}, 0xff)) ==
+    CHECK(trouble_with(with({18, 22}, 0xff)) ==
           "a has 65282 x 65282 pixels; there must be 1 to 33554432.");
-    CHECK(refusal_of(with({16, 20}, 0xff)) ==
+    CHECK(trouble_with(with({16, 20}, 0xff)) ==
           "a has 4278190082 x 4278190082 pixels; there must be 1 to 33554432.");
-    CHECK(refusal_of(with({19}, 0)) ==
+    CHECK(trouble_with(with({19}, 0)) ==
           "a has 0 x 2 pixels; there must be 1 to 33554432.");
     // Half as many of 16 bits, as byte 24 says.
-    CHECK(refusal_of(with({18, 22, 24}, 0x10)) ==
+    CHECK(trouble_with(with({18, 22, 24}, 0x10)) ==
           "a has 4098 x 4098 pixels of 16 bits per channel; there must be 1 to "
           "16777216.");
-    CHECK(refusal_of(with({18, 22}, 0x10)) ==
+    CHECK(trouble_with(with({18, 22}, 0x10)) ==
           "a is damaged: it ends in the middle of its pixels.");
-    CHECK(refusal_of(with({24}, 3)) == // bits of a channel
+    CHECK(trouble_with(with({24}, 3)) == // bits of a channel
           "a is not a picture that can be read: its header is damaged or unknown.");
     // As few pixels as are allowed, in one row that the decoder would not read.
     Bytes row = encode_png(make_image(2, 1));
     row[16] = 2; // 2^25 pixels wide
     row[19] = 0;
-    const std::uint32_t sum_of_row = detail::png_sum(row, 12, 29);
-    for (std::size_t i = 0; i < 4; ++i)
-        row[29 + i] = static_cast<unsigned char>(sum_of_row >> (24 - 8 * i) & 255u);
-    CHECK(refusal_of(row) == "a has 33554432 x 1 pixels; width and height must be at "
-                             "most 16777216.");
+    CHECK(trouble_with(resummed(row)) ==
+          "a has 33554432 x 1 pixels; width and height must be at "
+          "most 16777216.");
     // Another chunk where the header must be.
     Bytes late = whole;
     late.erase(late.begin() + 8, late.begin() + 33);
-    CHECK(refusal_of(late) ==
+    CHECK(trouble_with(late) ==
           "a is not a picture that can be read: its header is damaged or unknown.");
 }
 
@@ -1255,7 +1198,6 @@ TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
     CHECK(image.width == 64);
     for (const Rgb& color : image.pixels) CHECK((color.x >= 0 && color.x <= 1));
 }
-#endif
 
 TEST_CASE("texture: a file of many pixels and few bytes is refused") {
     // 10 289 152 x 3 pixels of 16 bits in 63 bytes, as a fuzzer found it.
@@ -1266,13 +1208,8 @@ TEST_CASE("texture: a file of many pixels and few bytes is refused") {
     Bytes jpeg{0xff, 0xd8, 0xff, 0xc0, 0, 17,   8, 1, 0,    0xf9, 0x09,
                3,    1,    0x11, 0,    2, 0x11, 0, 3, 0x11, 0};
     jpeg.resize(644);
-    for (const Bytes& file : {bmp, jpeg}) {
-        try {
-            (void)decode_image(file, "a");
-            CHECK(false);
-        } catch (const std::runtime_error& error) {
-            CHECK(std::string(error.what()) ==
-                  "a is damaged: it ends in the middle of its pixels.");
-        }
-    }
+    for (const Bytes& file : {bmp, jpeg})
+        CHECK(trouble_with(file) ==
+              "a is damaged: it ends in the middle of its pixels.");
 }
+#endif

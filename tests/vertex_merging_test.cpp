@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ljus/inspect/metrics.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/sun_light.hpp"
 #include "ljus/materials/glass.hpp"
@@ -23,6 +24,7 @@
 #include "ljus/render/vertex_merging.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scenes/furnaces.hpp"
+#include "support/box_sides.hpp"
 #include "support/refusal.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
@@ -207,16 +209,13 @@ Any box(Kind kind) {
     const auto red = scene.add(Lambertian{.albedo{0.6f, 0.2f, 0.1f}});
     const auto gloss = scene.add(Glossy{.reflectance = Rgb{0.8f}, .roughness = 0.4f});
     const auto mirror = scene.add(Mirror{.reflectance = Rgb{0.9f}});
-    const Vec3 x{2, 0, 0}, y{0, 2, 0}, z{0, 0, 2}, corner{-1, -1, -1};
-    scene.add(Quad{corner, z, x}, kind == Kind::glossy ? gloss : white);
-    scene.add(Quad{corner + y, x, z}, white);
-    scene.add(Quad{corner, x, y}, kind == Kind::mirror ? mirror : white);
-    scene.add(Quad{corner + z, y, x}, white);
     const bool clear = kind == Kind::caustic || kind == Kind::mirror;
     const auto mixed = scene.add(
         Mixture{.color{0.6f, 0.2f, 0.1f}, .reflectivity = 0.3f, .specularity = 1});
-    scene.add(Quad{corner, y, z}, clear ? mixed : red);
-    scene.add(Quad{corner + x, z, y}, white);
+    ljus_test::add_room(scene, Vec3{-1}, Vec3{1},
+                        {kind == Kind::glossy ? gloss : white, white,
+                         kind == Kind::mirror ? mirror : white, white,
+                         clear ? mixed : red, white});
     scene.add(Quad{{-0.4f, 0.99f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}}, white, Rgb{3});
     const Sphere ball{{-0.2f, -0.55f, -0.2f}, 0.35f};
     const auto frosted =
@@ -234,14 +233,8 @@ std::array<Mean, 16> blocks(int repetitions, const Draw& draw) {
     std::array<Mean, 16> means;
     for (int i = 0; i < repetitions; ++i) {
         const Image image = draw(i);
-        const int side = image.width / 4;
-        for (int b = 0; b < 16; ++b) {
-            double sum = 0;
-            for (int p = 0; p < side * side; ++p)
-                sum += double(
-                    pixel(image, b % 4 * side + p % side, b / 4 * side + p / side).x);
-            means[std::size_t(b)].add(sum / (side * side));
-        }
+        const auto found = block_means(image, image.width / 4).pixels;
+        for (std::size_t b = 0; b < 16; ++b) means[b].add(found[b].x);
     }
     return means;
 }

@@ -16,6 +16,7 @@
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/scene/make_scene.hpp"
 #include "ljus/scene/world.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/rooms.hpp"
 
@@ -45,23 +46,6 @@ TEST_CASE("vertex: a lamp emits along its normal, and to no other side") {
     CHECK(at.wo.z == doctest::Approx(std::sqrt(0.5)));
     CHECK(glm::length(at.wo) == doctest::Approx(1));
     CHECK(glm::distance(to_world(at.frame, at.wo), -slanted) < 1e-6f);
-}
-
-TEST_CASE("vertex: what a path is in after a surface") {
-    const Glass glass{.absorption = Rgb{0.1f, 0.2f, 0.3f}};
-    const Rgb outside{0}, inside = glass.absorption;
-    const Vec3 up = glm::normalize(Vec3{0.3f, 0, 1}), down = -up;
-    CHECK(detail::medium_beyond(outside, glass, up, up) ==
-          outside); // reflected outside
-    CHECK(detail::medium_beyond(outside, glass, up, down) ==
-          inside); // refracted into it
-    CHECK(detail::medium_beyond(inside, glass, down, down) ==
-          inside); // reflected inside
-    CHECK(detail::medium_beyond(inside, glass, down, up) ==
-          Rgb{0}); // refracted out of it
-    const Lambertian matt{};
-    CHECK(detail::medium_beyond(inside, matt, up, up) ==
-          inside); // a matt ball within glass
 }
 
 TEST_CASE("vertex: roulette leaves the mean as it was") {
@@ -416,9 +400,7 @@ TEST_CASE("vertex: at a boundary a path splits by Fresnel's share") {
         const auto other = split_path(path, *vertex, glass);
         REQUIRE(other);
         const double cos_t = std::sqrt(1 - 0.36 / 2.25);
-        const double s = (0.8 - 1.5 * cos_t) / (0.8 + 1.5 * cos_t);
-        const double p = (1.5 * 0.8 - cos_t) / (1.5 * 0.8 + cos_t);
-        const double share = (s * s + p * p) / 2;
+        const double share = fresnel_share(0.8, 1, 1.5);
         for (int c = 0; c < 3; ++c) {
             CHECK(path.throughput[c] == doctest::Approx((2 + c) * share));
             CHECK(other->throughput[c] ==
@@ -623,9 +605,7 @@ TEST_CASE("vertex: what a slanted pane lets through, and what glass hides") {
                           ThinGlassT<double>{}),
                    placed(QuadT<double>{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}},
                           LambertianT<double>{})));
-    const double c = 0.5, t = std::sqrt(1 - 0.75 / 2.25);
-    const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t);
-    const double r = (s * s + p * p) / 2;
+    const double r = fresnel_share(0.5, 1, 1.5);
     const auto point = [](double x, double z) {
         return SurfacePointT<double>{.position{x, 0, z}, .normal{0, 0, 1}};
     };
@@ -942,16 +922,6 @@ TEST_CASE("vertex: a path and a vertex, before anything is known of them") {
     CHECK_FALSE(vertex.smooth);
     CHECK_FALSE(vertex.turned);
     CHECK_FALSE(vertex.emits());
-    // Roulette: from a throughput of 1 on all are safe.
-    for (const double carried : {0.25, 1.0, 3.0})
-        for (const double u : {0.2, 0.3, 0.99}) {
-            D3 throughput{carried, carried / 2, 0};
-            const bool alive = survives(throughput, 1.0, u);
-            CHECK(alive == (u < carried));
-            if (alive)
-                CHECK(glm::distance(throughput, D3{1, 0.5, 0} * std::fmax(carried, 1)) <
-                      1e-15);
-        }
 }
 
 TEST_CASE("vertex: which of two normals decides what") {

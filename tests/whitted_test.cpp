@@ -19,6 +19,7 @@
 #include "ljus/materials/textured.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/whitted.hpp"
+#include "support/closed_forms.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
 
@@ -107,13 +108,6 @@ double floor_light(const D3& o, const D3& d, Paper& paper) {
     return albedo / pi * light_intensity * (way.y / std::sqrt(r2)) / r2;
 }
 
-/// The unpolarised share that is reflected, by angles.
-double fresnel_by_angles(double i, double t) {
-    const double s = std::sin(i - t) / std::sin(i + t);
-    const double p = std::tan(i - t) / std::tan(i + t);
-    return (s * s + p * p) / 2;
-}
-
 /// The light along a primary ray after at most `depth` turns.
 Paper on_paper(const D3& o, const D3& d, bool glass, int depth) {
     Paper paper;
@@ -137,7 +131,7 @@ Paper on_paper(const D3& o, const D3& d, bool glass, int depth) {
     // In the plane of n and d: e lies along the surface.
     const D3 e = glm::normalize(d + cosine * n);
     const double in = std::acos(cosine), turned = std::asin(std::sin(in) / glass_index);
-    const double f = fresnel_by_angles(in, turned);
+    const double f = ljus_test::fresnel_share(cosine, 1, glass_index);
     if (depth >= 1) paper.radiance = f * floor_light(ball_center + n, mirrored, paper);
     // Each chord moves the point by pi - 2 turned around the centre; what leaves there
     // makes the angle `in` with the new normal.

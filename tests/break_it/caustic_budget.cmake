@@ -52,7 +52,7 @@ ljus_break_it(NAME caustic_budget-side HEADER photons/budget.hpp TEST caustic_bu
 ljus_break_it(NAME caustic_budget-pilot HEADER photons/budget.hpp TEST caustic_budget
     FROM "pass.shares[object] = 1;"
     TO   "pass.shares.clear();"
-    CASES "caustic_budget: a share*")
+    CASES "caustic_budget: the pilot's numbers*")
 
 # A radius that is to be chosen, taken for a disc without an area.
 ljus_break_it(NAME caustic_budget-radius HEADER photons/budget.hpp TEST caustic_budget

@@ -101,7 +101,7 @@ ljus_break_it(NAME aim-spot-inner HEADER lights/spot_light.hpp TEST emission
 ljus_break_it(NAME aim-mixtures HEADER photons/aiming.hpp TEST emission
     FROM "has(lobes(m), Lobes::specular)"
     TO   "lobes(m) == Lobes::specular"
-    CASES "emission: what is matt and a mirror*")
+    CASES "emission: what is mirror or glass*")
 
 # The point that says where on a light says where to.
 ljus_break_it(NAME emission-point-direction HEADER lights/point_light.hpp TEST emission

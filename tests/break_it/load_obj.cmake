@@ -74,13 +74,13 @@ ljus_break_it(NAME load-obj-glass-first HEADER io/mesh_file.hpp TEST load_obj
 ljus_break_it(NAME polygon-ear-line HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "turn(c, a, p) >= 0"
     TO   "turn(c, a, p) > 0"
-    CASES "load_obj: a corner on the line*")
+    CASES "load_obj: an ear is cut off*")
 
 # An ear is cut off though a corner touches its first side.
 ljus_break_it(NAME polygon-ear-side HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "turn(a, b, p) >= 0"
     TO   "turn(a, b, p) > 0"
-    CASES "load_obj: no ear is cut off*")
+    CASES "load_obj: an ear is cut off*")
 
 # A polygon on a line is cut into triangles without an area.
 ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_obj

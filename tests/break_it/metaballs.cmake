@@ -84,7 +84,7 @@ ljus_break_it(NAME metaballs-on-surface HEADER geometry/detail/metaball_quartic.
     TEST metaballs
     FROM "if (p.c[0] == C(0)) p.c[0] = std::numeric_limits<C>::min();"
     TO   ""
-    CASES "metaballs: on the surface*")
+    CASES "metaballs: a start on the surface*")
 
 # What the solver leaves of f is no part of a hit's error: in double it meets itself.
 ljus_break_it(NAME isosurface-solver HEADER geometry/isosurface.hpp TEST metaballs

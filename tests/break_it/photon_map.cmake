@@ -2,30 +2,30 @@
 ljus_break_it(NAME photon-map-k HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "skip = full ? 1 : 0"
     TO   "skip = 0"
-    CASES "photon_map: with the k nearest*")
+    CASES "photon_map: every kernel finds*")
 
 # (k-1)/k as well as the k-th photon left out: too dark by as much.
 ljus_break_it(NAME photon-map-twice HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "weight * factor(photon) * photon.flux"
     TO   "(1 - 1 / T(gather.nearest)) * weight * factor(photon) * photon.flux"
-    CASES "photon_map: with the k nearest*")
+    CASES "photon_map: every kernel finds*")
 
 # The area of the cube's side instead of the disc's.
 ljus_break_it(NAME photon-map-area HEADER photons/irradiance_estimate.hpp TEST photon_map
     FROM "std::numbers::pi * radius2"
     TO   "4 * radius2"
-    CASES "photon_map: within a fixed*")
+    CASES "photon_map: every kernel finds*")
 
 # "A missing dot product" the other way round: the flux holds the cosine already.
 ljus_break_it(NAME photon-map-cosine HEADER photons/density_estimate.hpp TEST photon_map
     FROM "weight * evaluate(material, wo, wi)"
     TO   "weight * wi.z * evaluate(material, wo, wi)"
-    CASES "photon_map: one by one*")
+    CASES "photon_map: the irradiance of a side*,photon_map: eight*")
 
 ljus_break_it(NAME photon-map-direction HEADER photons/density_estimate.hpp TEST photon_map
     FROM "wi = to_local(surface.frame, -photon.direction);"
     TO   "wi = to_local(surface.frame, photon.direction);"
-    CASES "photon_map: one by one*")
+    CASES "photon_map: the irradiance of a side*,photon_map: eight*")
 
 # A ball without a disc: the light of another wall.
 ljus_break_it(NAME photon-map-thickness HEADER photons/density_estimate.hpp TEST photon_map

@@ -14,7 +14,7 @@ ljus_break_it(NAME progressive-mean HEADER render/progressive.hpp TEST progressi
 ljus_break_it(NAME progressive-photons HEADER render/progressive.hpp TEST progressive
     FROM "settings.caustics.iteration = settings.general.iteration = number;"
     TO   ""
-    CASES "progressive: both radii*")
+    CASES "progressive: each pass has photons*")
 
 # The same camera rays in each pass.
 ljus_break_it(NAME progressive-camera HEADER render/progressive.hpp TEST progressive

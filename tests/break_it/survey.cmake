@@ -24,10 +24,10 @@ ljus_break_it(NAME survey-narrower HEADER inspect/scene_remarks.hpp TEST survey
 
 # The settings of what is skipped are taken as they come.
 ljus_break_it(NAME survey-skip-unchecked HEADER render/photon_mapping_settings.hpp
-    TEST survey
+    TEST final_gathering
     FROM "    check(settings.skip);"
     TO   ""
-    CASES "survey: settings that give no picture*")
+    CASES "final gathering: settings that give*")
 
 # How far a scene reaches, along one axis alone.
 ljus_break_it(NAME survey-reach HEADER inspect/scene_remarks.hpp TEST survey

@@ -14,7 +14,7 @@ ljus_break_it(NAME vertex-eta_scale HEADER path/path_state.hpp TEST vertex
 ljus_break_it(NAME vertex-medium HEADER path/continue_path.hpp TEST vertex
     FROM "wi.z < T(0) ? absorption(material) : RgbT<T>{T(0)}"
     TO   "absorption(material)"
-    CASES "vertex: what a path is in*")
+    CASES "vertex: a path through glass*")
 
 # Photons and camera paths do not see the same scene.
 ljus_break_it(NAME vertex-adjoint HEADER path/continue_path.hpp TEST vertex

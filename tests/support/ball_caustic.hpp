@@ -9,6 +9,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "support/closed_forms.hpp"
+
 namespace ljus_test {
 
 /// A ball above a floor, with a point light above it on the vertical axis of the ball.
@@ -32,15 +34,7 @@ struct BallCaustic {
     /// The largest angle alpha at which a ray meets the ball.
     [[nodiscard]] double last() const { return std::asin(radius / light); }
 
-    /// The Fresnel reflectance of unpolarised light, from the cosines `ci` of incidence
-    /// and `ct` of refraction.
-    [[nodiscard]] double fresnel(double ci, double ct) const {
-        const double s = (ci - index * ct) / (ci + index * ct);
-        const double p = (index * ci - ct) / (index * ci + ct);
-        return (s * s + p * p) / 2;
-    }
-
-    /// The place where a ray lands.
+    /// The point where a ray lands.
     struct Arrival {
         bool lands = false; ///< Whether the ray reaches the floor.
         double rho = 0;     ///< Signed distance from the axis, on the floor.
@@ -51,7 +45,7 @@ struct BallCaustic {
     [[nodiscard]] Arrival trace(double alpha, int k) const {
         const double si = std::sin(alpha) * light / radius;
         const double ti = std::asin(si), tt = std::asin(si / index);
-        const double f = fresnel(std::cos(ti), std::cos(tt));
+        const double f = fresnel_share(std::cos(ti), 1, index);
         const double exit = ti - alpha + (k + 1) * (std::numbers::pi - 2 * tt);
         const double way = exit + ti;
         Arrival result;

@@ -11,15 +11,16 @@
 
 namespace ljus_test {
 
-/// The message with which a call is refused; empty if the call succeeds.
-template <std::invocable Call>
-std::string refusal(Call call) {
+/// The message with which a call is refused.
+/// \param otherwise  The result if the call succeeds.
+template <typename Error = std::invalid_argument, std::invocable Call>
+std::string refusal(Call call, const char* otherwise = "") {
     try {
         call();
-    } catch (const std::invalid_argument& error) {
+    } catch (const Error& error) {
         return error.what();
     }
-    return "";
+    return otherwise;
 }
 
 /// The reason why a call cannot read a file, without "cannot read 'a.pfm': "; "loaded"

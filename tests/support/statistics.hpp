@@ -49,6 +49,16 @@ struct Mean {
     }
 };
 
+/// The slope of a line through points, by least squares.
+inline double slope(std::span<const double> x, std::span<const double> y) {
+    Mean mx, my;
+    for (std::size_t i = 0; i < x.size(); ++i) mx.add(x[i]), my.add(y[i]);
+    double xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        xy += (x[i] - mx.mean) * (y[i] - my.mean);
+    return xy / mx.squares;
+}
+
 /// The distance of two independent means, in standard errors of their difference.
 inline double apart(const Mean& a, const Mean& b) {
     const double error = std::hypot(a.error(), b.error());
