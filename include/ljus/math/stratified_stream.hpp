@@ -62,6 +62,12 @@ namespace detail {
                     static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
+/// Whether a draw is a number of the ray's own: there is no other ray, or the pattern
+/// has no cells.
+[[nodiscard]] constexpr bool independent(const StratifiedStream& stream) noexcept {
+    return stream.pattern.points == 1 || stream.pattern.sampling == Sampling::random;
+}
+
 /// Moves a number that rounding may have put onto 1 below it.
 template <std::floating_point T>
 [[nodiscard]] constexpr T below_one(T x) noexcept {
@@ -74,9 +80,9 @@ template <std::floating_point T>
 /// The next number, uniform in [0, 1), stratified over the pixel's rays.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
+    if (detail::independent(stream)) return next_1d<T>(stream.rest);
     std::uint64_t key = 0;
     const T cell = T(detail::next_cell(stream, key)), u = next_1d<T>(stream.rest);
-    if (stream.pattern.sampling == Sampling::random) return u;
     return detail::below_one((cell + u) / T(stream.pattern.points));
 }
 
@@ -84,6 +90,7 @@ template <std::floating_point T = float>
 // [next 2d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
+    if (detail::independent(stream)) return next_2d<T>(stream.rest);
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
     // Not next_cell()'s key: applying the same permutation twice would correlate rays.

@@ -58,7 +58,7 @@ template <typename Mapper, std::floating_point T>
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param context   Three numbers are drawn; the lookup is counted.
+/// \param context   Up to three numbers are drawn; the lookup is counted.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,

@@ -140,8 +140,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
                         ways.push_back(*other);
                         return true;
                     }
-                return has(parts, Lobes::specular) &&
-                       continue_path(path, *vertex, material, Transport::radiance,
+                return continue_path(path, *vertex, material, Transport::radiance,
                                      Lobes::specular, stream);
             };
             if (!visit_material_at(world, *vertex, at_material)) break;
