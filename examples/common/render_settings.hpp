@@ -58,8 +58,9 @@ struct RenderRequest {
     std::optional<ljus::Preset> preset{}; ///< Options given by name override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
     int more_rays = 0;                    ///< More rays for pixels that need them.
-    double disagreement = 0.75;           ///< Deviation at which they get all of them.
-    double exposure = 0;                  ///< Exposure of PNG files, in stops.
+    /// Deviation at which they get all of them.
+    double disagreement = ljus::PresetRays{}.disagreement;
+    double exposure = 0; ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};
     /// How a path tracer's rays to lamps and its paths are weighted; none: paths alone.
