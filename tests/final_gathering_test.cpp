@@ -675,10 +675,13 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
                                 Lobes::glossy, stream) == Rgb{0});
         CHECK(detail::reflected(Mirror{}, wo, all_round, Lobes::non_specular, stream) ==
               Rgb{0});
-        (void)next_3d<float>(twin);
-        (void)next_3d<float>(twin);
-        (void)next_3d<float>(twin);
-        CHECK(next_1d<float>(stream) == next_1d<float>(twin)); // three numbers each
+        (void)next_3d<float>(twin); // for the mirror alone
+        CHECK(next_1d<float>(stream) == next_1d<float>(twin));
+        const auto above = [&](const Vec3& wi) { return wi.z > 0 ? known : Rgb{0}; };
+        CHECK(detail::reflected(Lambertian{.albedo = albedo}, wo, above, Lobes::diffuse,
+                                stream) == seen);
+        CHECK(detail::reflected(Lambertian{.albedo = albedo}, -wo, above,
+                                Lobes::diffuse, stream) == Rgb{0});
     }
     // The normal on the side that is seen.
     Vertex vertex;

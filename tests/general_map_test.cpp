@@ -643,7 +643,7 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.gather.tile == 5);
     const auto fast = preset_settings(Preset::fast, 400, 300);
     CHECK(fast.caustics.photons == 84000); // seven tenths of the pixels
-    CHECK(fast.general.photons == 92000);
+    CHECK(fast.general.photons == 58400);  // six tenths of these, and 8000
     CHECK(fast.shadow_rays == 4);
     CHECK(fast.direct == DirectLight::analytic);
     CHECK(fast.indirect == IndirectLight::cache);
@@ -663,11 +663,13 @@ TEST_CASE("general map: what the presets ask for") {
         CHECK(settings.general_estimate.radius == 0);
         check(settings);
     }
-    for (const auto& [preset, more] :
-         {std::pair{Preset::draft, 0}, {Preset::fast, 8000}}) {
-        CHECK(preset_settings(preset, 10, 10).general.photons == 10000 + more);
-        CHECK(preset_settings(preset, 20000, 20000).general.photons == 1000000 + more);
-    }
+    const auto general = [](Preset preset, int side) {
+        return preset_settings(preset, side, side).general.photons;
+    };
+    CHECK(general(Preset::draft, 10) == 10000);
+    CHECK(general(Preset::draft, 20000) == 1000000);
+    CHECK(general(Preset::fast, 10) == 14000);
+    CHECK(general(Preset::fast, 20000) == 608000);
     // Beyond 2^31 pixels, too; seven tenths of them lie
     // between the limits at 300 x 300.
     CHECK(preset_settings(Preset::fast, 50000, 50000).caustics.photons == 1000000);
@@ -681,14 +683,16 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.irradiance.shadow_rays == 4); // a gather ray is one of 16
     CHECK(fast.irradiance.shadow_rays == 2);
     CHECK(exact.irradiance.shadow_rays == 4);
+    CHECK(draft.irradiance.every == 6);
+    CHECK(fast.irradiance.every == 8);
     const auto rays = [](Preset preset) {
         const PresetRays found = preset_rays(preset);
         return std::array<double, 3>{double(found.first), double(found.more),
                                      found.disagreement};
     };
-    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 0.75});
-    CHECK(rays(Preset::fast) == std::array<double, 3>{1, 12, 0.75});
-    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 0.75});
+    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 1.2});
+    CHECK(rays(Preset::fast) == std::array<double, 3>{1, 16, 1.2});
+    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 1.2});
     CHECK(preset_settings(Preset::draft, 20000, 20000).caustics.photons == 500000);
     CHECK(preset_settings(Preset::fast, 20000, 20000).caustics.photons == 1000000);
     CHECK(detail::gathers(IndirectLight::map));

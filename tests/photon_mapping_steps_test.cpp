@@ -175,7 +175,6 @@ TEST_CASE("photon mapping: who answers at a vertex, term by term") {
                                     right.push_back(
                                         {"irradiance cache", "D..DL",
                                          irradiance * in_all * matt.albedo});
-                                    (void)next_3d<float>(twin);
                                 } else { // of its matt part, and of nothing else
                                     const auto part = sample(
                                         material, vertex.wo, next_3d<float>(twin),

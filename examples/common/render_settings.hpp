@@ -60,7 +60,8 @@ struct RenderRequest {
     std::optional<ljus::Preset> preset{}; ///< A preset; other options override it.
     ljus::RenderSettings picture{};       ///< Settings of the whole picture.
     /// Further rays of pixels that differ from their neighbours.
-    ljus::AdaptiveSettings adaptive{.more = 0, .batches = 1, .disagreement = 0.75};
+    ljus::AdaptiveSettings adaptive{
+        .more = 0, .batches = 1, .disagreement = ljus::PresetRays{}.disagreement};
     double exposure = 0; ///< Exposure of PNG files, in stops.
     ljus::PhotonMappingSettings photon{.caustics_estimate = {.radius = 0.1f}};
     ljus::PathTracingSettings path{};

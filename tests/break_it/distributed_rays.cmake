@@ -89,8 +89,8 @@ ljus_break_it(NAME stratified-stream-twice HEADER math/stratified_stream.hpp
 # Rays are spread evenly though the picture asks for chance.
 ljus_break_it(NAME stratified-stream-chance HEADER math/stratified_stream.hpp
     TEST stratified_stream
-    FROM "if (stream.pattern.sampling == Sampling::random) return u;"
-    TO   ""
+    FROM "stream.pattern.points == 1 || stream.pattern.sampling == Sampling::random"
+    TO   "stream.pattern.points == 1"
     CASES "stratified stream: by chance*")
 
 # A ray that is black already looks on.

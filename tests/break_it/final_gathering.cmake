@@ -50,9 +50,16 @@ ljus_break_it(NAME final-gathering-normal HEADER photons/irradiance_points.hpp
 # Irradiance taken for radiance: pi times too bright.
 ljus_break_it(NAME final-gathering-pi HEADER render/final_gathering.hpp
     TEST final_gathering
-    FROM "return scattered->weight * irradiance(scattered->wi) * std::numbers::inv_pi_v<T>;"
-    TO   "return scattered->weight * irradiance(scattered->wi);"
+    FROM "return weight * irradiance(wi) * std::numbers::inv_pi_v<T>;"
+    TO   "return weight * irradiance(wi);"
     CASES "final gathering: in a furnace*")
+
+# A matt surface reflects the light of its front, also when seen from behind.
+ljus_break_it(NAME final-gathering-front HEADER render/final_gathering.hpp
+    TEST final_gathering
+    FROM "std::copysign(T(1), wo.z)"
+    TO   "T(1)"
+    CASES "final gathering: what a material*")
 
 # The harmonic mean of the gather rays' lengths for their mean: points count too far.
 ljus_break_it(NAME final-gathering-distance HEADER render/final_gathering.hpp

@@ -67,3 +67,10 @@ ljus_break_it(NAME irradiance-cache-behind HEADER render/irradiance_cache.hpp
     FROM "detail::seen_normal(vertex), T(settings.reach)"
     TO   "vertex.frame.normal, T(settings.reach)"
     CASES "irradiance cache: what is known*")
+
+# Where no point is near, each camera ray gathers as many rays as a point.
+ljus_break_it(NAME irradiance-cache-once HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "(settings.rays + 3) / 4"
+    TO   "settings.rays"
+    CASES "irradiance cache: what is known*")

@@ -65,6 +65,12 @@ namespace detail {
                     static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
+/// Whether the numbers of a ray do not depend on other rays: the pixel has no other
+/// ray, or the pattern has no cells.
+[[nodiscard]] constexpr bool independent(const StratifiedStream& stream) noexcept {
+    return stream.pattern.points == 1 || stream.pattern.sampling == Sampling::random;
+}
+
 /// If rounding has made x equal to 1, returns the largest number below 1 instead.
 template <std::floating_point T>
 [[nodiscard]] constexpr T below_one(T x) noexcept {
@@ -77,9 +83,9 @@ template <std::floating_point T>
 /// The next number, uniform in [0, 1), stratified over the pixel's rays.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(StratifiedStream& stream) noexcept {
+    if (detail::independent(stream)) return next_1d<T>(stream.rest);
     std::uint64_t key = 0;
     const T cell = T(detail::next_cell(stream, key)), u = next_1d<T>(stream.rest);
-    if (stream.pattern.sampling == Sampling::random) return u;
     return detail::below_one((cell + u) / T(stream.pattern.points));
 }
 
@@ -87,6 +93,7 @@ template <std::floating_point T = float>
 // [next 2d]
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(StratifiedStream& stream) noexcept {
+    if (detail::independent(stream)) return next_2d<T>(stream.rest);
     std::uint64_t key = 0;
     const auto cell = static_cast<int>(detail::next_cell(stream, key));
     // The key is mixed: next_cell() and spread() must not use the same permutation.

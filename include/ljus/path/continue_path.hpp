@@ -135,6 +135,7 @@ template <std::floating_point T, Material M, StreamLike Stream>
 [[nodiscard]] bool continue_path(PathStateT<T>& path, const VertexT<T>& vertex,
                                  const M& material, Transport transport, Lobes which,
                                  Stream& stream) {
+    if (!has(lobes(material), which)) return false;
     const Vec3T<T> u = next_3d<T>(stream);
     if (!vertex.smooth) { // the same as scatter(), without copies
         const auto next = sample(material, vertex.wo, u, transport, which);

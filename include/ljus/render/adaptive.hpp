@@ -310,9 +310,12 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 
     std::vector<std::size_t> order(parts.size()); // largest errors first
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return parts[a].variance / parts[a].rays > parts[b].variance / parts[b].rays;
-    });
+    const bool scarce = rule.disagreement == 0 || limit - rule.first < rule.more;
+    if (scarce) // otherwise each block gets what it asks for
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return parts[a].variance / parts[a].rays >
+                   parts[b].variance / parts[b].rays;
+        });
     const int begun = rule.two_stage ? 1 : 0; // the batch that begins the second stage
     const int most_batches = 1 + rule.batches - begun;
     bool any = false;

@@ -40,17 +40,25 @@ template <std::floating_point T>
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
 ///                    which the direction points, in W/m^2.
 /// \param which       The lobes.
-/// \param stream      Three numbers are drawn.
+/// \param stream      Three numbers are drawn, for a Lambertian surface none.
 /// \return W/(m^2 sr).
 // [reflected]
 template <Material M, std::floating_point T, typename Irradiance, typename Stream>
 [[nodiscard]] RgbT<T> reflected(const M& material, const Vec3T<T>& wo,
                                 const Irradiance& irradiance, Lobes which,
                                 Stream& stream) {
-    const auto scattered =
-        sample(material, wo, next_3d<T>(stream), Transport::radiance, which);
-    if (!scattered) return RgbT<T>{T(0)};
-    return scattered->weight * irradiance(scattered->wi) * std::numbers::inv_pi_v<T>;
+    const auto radiance = [&](const RgbT<T>& weight, const Vec3T<T>& wi) {
+        return weight * irradiance(wi) * std::numbers::inv_pi_v<T>;
+    };
+    if constexpr (std::same_as<M, LambertianT<T>>) {
+        if (!has(which, Lobes::diffuse)) return RgbT<T>{T(0)};
+        return radiance(material.albedo, {T(0), T(0), std::copysign(T(1), wo.z)});
+    } else {
+        const auto scattered =
+            sample(material, wo, next_3d<T>(stream), Transport::radiance, which);
+        if (!scattered) return RgbT<T>{T(0)};
+        return radiance(scattered->weight, scattered->wi);
+    }
 }
 // [reflected]
 
@@ -182,8 +190,8 @@ gather_ray(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                                   detail::reflected(material, vertex->wo, irradiance,
                                                     Lobes::diffuse, stream);
             }
-            return has(parts, on) && continue_path(path, *vertex, material,
-                                                   Transport::radiance, on, stream);
+            return continue_path(path, *vertex, material, Transport::radiance, on,
+                                 stream);
         };
         if (!visit_material_at(world, *vertex, at_material)) break;
         if (!survives(path.throughput, path.eta_scale, next_1d<T>(stream))) break;

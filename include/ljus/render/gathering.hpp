@@ -62,8 +62,8 @@ template <typename Mapper, std::floating_point T>
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param context   The random stream, from which three numbers are drawn; counts the
-///                  lookup.
+/// \param context   The random stream, from which up to three numbers are drawn; counts
+///                  the lookup.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,

@@ -79,7 +79,9 @@ template <std::floating_point T>
 // [interpolate]
 
 /// The indirect irradiance at a vertex, interpolated between the points of a cache. If
-/// no point is near enough, it is gathered at the vertex itself.
+/// no point is near enough, it is gathered at the vertex itself, with a quarter of the
+/// rays: the noise of a point of the cache shows at all places around it, that of a
+/// vertex in one camera ray.
 /// \param world     The closed scene.
 /// \param lookup    The data that gather rays look up.
 /// \param cache     May be empty.
@@ -98,8 +100,9 @@ irradiance_between(const W& world, const std::type_identity_t<GatherLookupT<T>>&
     const auto known = interpolate(cache, detail::at_rest(world, vertex).point.position,
                                    detail::seen_normal(vertex), T(settings.reach));
     if (known) return *known;
-    return gather_irradiance(world, lookup, vertex, material, settings, context)
-        .irradiance;
+    GatherSettings once = settings;
+    once.rays = (settings.rays + 3) / 4;
+    return gather_irradiance(world, lookup, vertex, material, once, context).irradiance;
 }
 
 namespace detail {
@@ -142,8 +145,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
                         ways.push_back(*other);
                         return true;
                     }
-                return has(parts, Lobes::specular) &&
-                       continue_path(path, *vertex, material, Transport::radiance,
+                return continue_path(path, *vertex, material, Transport::radiance,
                                      Lobes::specular, stream);
             };
             if (!visit_material_at(world, *vertex, at_material)) break;

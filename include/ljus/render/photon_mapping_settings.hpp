@@ -183,11 +183,14 @@ enum class Preset : std::uint8_t {
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel, or blotches cover much of the
     // picture.
-    settings.general.photons = photons + (draft ? 0 : 8000);
+    settings.general.photons = draft ? photons : photons * 6 / 10 + 8000;
     settings.caustics.photons = photons / (draft ? 2 : 1);
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
-    if (!draft) settings.irradiance.shadow_rays = 2; // 36 gather rays are averaged
+    if (!draft) { // 36 gather rays are averaged
+        settings.irradiance.shadow_rays = 2;
+        settings.irradiance.every = 8;
+    }
     // The disc of an estimate then covers at most 1/32 of the surfaces with indirect
     // light.
     settings.irradiance.least = 32 * int(settings.irradiance.nearest);
@@ -203,7 +206,7 @@ struct PresetRays {
     /// If the relative standard deviation of the first rays around a pixel is at least
     /// this, the pixel gets all `more` rays. If it is smaller, the pixel gets a part of
     /// them, in proportion.
-    double disagreement = 0.75;
+    double disagreement = 1.2;
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
@@ -211,7 +214,7 @@ struct PresetRays {
 /// \return The numbers of rays.
 [[nodiscard]] constexpr PresetRays preset_rays(Preset preset) noexcept {
     if (preset == Preset::draft) return {.first = 1, .more = 0};
-    if (preset == Preset::fast) return {.first = 1, .more = 12};
+    if (preset == Preset::fast) return {.first = 1, .more = 16};
     return {.first = 64, .more = 0};
 }
 
