@@ -79,9 +79,9 @@ template <std::floating_point T>
 // [interpolate]
 
 /// The indirect irradiance at a vertex, interpolated between the points of a cache. If
-/// no point is near enough, it is gathered at the vertex itself, with a quarter of the
-/// rays: the noise of a point of the cache shows at all places around it, that of a
-/// vertex in one camera ray.
+/// no point is near enough, the irradiance is gathered at the vertex itself, with a
+/// quarter of the rays. Its noise then affects one camera ray; the noise of a point of
+/// the cache affects many.
 /// \param world     The closed scene.
 /// \param lookup    The data that gather rays look up.
 /// \param cache     May be empty.
