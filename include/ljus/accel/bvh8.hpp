@@ -9,11 +9,11 @@
 namespace ljus {
 
 /// \defgroup bvh8 Wide trees
-/// \brief A faster tree with the searches and the results of the plain tree
+/// \brief A wide tree offers the searches of BvhT, gives the same results and is faster
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-/// A tree with up to eight children per node. It is made from the plain tree, as
+/// A tree with up to eight children per node. It is made from a binary tree, as
 /// described in \ref bvh_collapse.
 class Bvh8 {
 public:

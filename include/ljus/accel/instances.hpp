@@ -72,7 +72,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 class InstanceT {
 public:
-    using Wide = WideT<T>; ///< Precision of the inverse map: double for float.
+    using Wide = WideT<T>; ///< Precision of the inverse map; double if T is float.
 
     /// The data of an instance.
     struct Data {

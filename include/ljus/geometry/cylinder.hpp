@@ -125,7 +125,7 @@ template <std::floating_point T>
     return detail::point_of(cylinder, hit.v, Vec3T<T>(glm::normalize(way)));
 }
 
-/// Samples a point of a cylinder uniformly. Its density is 1 / area per squared scene
+/// Samples a point of a cylinder uniformly. The density is 1 / area per squared scene
 /// unit.
 /// \param cylinder  The cylinder.
 /// \param u         Point of the unit square. u.x gives the angle around the axis, and

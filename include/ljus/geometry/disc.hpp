@@ -104,7 +104,7 @@ template <std::floating_point T>
     return point_at(disc, hit.u, hit.v, normal(disc));
 }
 
-/// Samples a point of a disc uniformly. Its density is 1 / area per squared scene unit.
+/// Samples a point of a disc uniformly. The density is 1 / area per squared scene unit.
 /// \param disc    The disc.
 /// \param u       Point of the unit square.
 /// \param normal  The result of normal(disc).

@@ -103,8 +103,8 @@ template <std::floating_point T>
     return point_at(quad, u, v, normal(quad));
 }
 
-/// Samples a point of a quad with an area, uniformly. Its density is 1 / area per
-/// squared scene unit.
+/// Samples a point of a quad uniformly. The area must not be 0. The density is
+/// 1 / area per squared scene unit.
 /// \param quad    The quad.
 /// \param u       Point of the unit square.
 /// \param normal  The result of normal(quad).

@@ -196,7 +196,7 @@ template <std::floating_point T>
 }
 // [surface_point]
 
-/// Samples a point of a sphere uniformly. Its density is 1 / area per squared scene
+/// Samples a point of a sphere uniformly. The density is 1 / area per squared scene
 /// unit. `u` is a point of the unit square.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,

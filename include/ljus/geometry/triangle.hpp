@@ -120,8 +120,8 @@ template <std::floating_point T>
     return point_at(triangle, u, v, normal(triangle));
 }
 
-/// Samples a point of a triangle with an area, uniformly. Its density is 1 / area per
-/// squared scene unit.
+/// Samples a point of a triangle uniformly. The area must not be 0. The density is
+/// 1 / area per squared scene unit.
 /// \param triangle  The triangle.
 /// \param u         Point of the unit square.
 /// \param normal    The result of normal(triangle).

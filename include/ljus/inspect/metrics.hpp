@@ -165,10 +165,10 @@ template <std::floating_point T, std::floating_point U>
     return rel_mse(block_means(image, size), block_means(reference, size), epsilon);
 }
 
-/// The two terms of a mean square error.
+/// The two terms of a mean square error, as means over all pixels and channels.
 struct BiasVariance {
-    double bias_squared = 0.0; ///< Mean of (E[x] - r)^2, the squared bias.
-    double variance = 0.0;     ///< Mean variance of x in one run, the noise.
+    double bias_squared = 0.0; ///< The squared bias.
+    double variance = 0.0;     ///< The variance of a single run, which is its noise.
 };
 
 /// Splits the mean square error of a method by running it with several seeds. For each

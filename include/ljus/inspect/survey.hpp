@@ -28,7 +28,7 @@ struct PlanItem {
 struct Plan {
     PlanItem shadow_rays;     ///< Rays to lights.
     PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
-    PlanItem caustics_map;    ///< Photons through mirrors and glass.
+    PlanItem caustics_map;    ///< Photons that mirrors and glass scatter.
     PlanItem general_map;     ///< Direct, indirect and shadow photons.
     PlanItem volume_map;      ///< Photons where fog scatters them.
     PlanItem shadow_photons;  ///< Shadow photons in the general map.

@@ -109,9 +109,9 @@ namespace ljus {
 enum class PictureContent : std::uint8_t {
     colors,  ///< Linear colours, without alpha.
     numbers, ///< The bytes divided by 255, for normals and other data.
-    alpha,   ///< Alpha in all three channels; 1 in a picture that has none.
-    mask     ///< Alpha or, in a picture that has none, red divided by 255, in all three
-             ///< channels.
+    alpha,   ///< Alpha in all three channels, in [0, 1]; 1 in a picture without alpha.
+    mask ///< As `alpha`. A picture without alpha gives its red channel instead, with
+         ///< the bytes divided by 255.
 };
 
 namespace detail {

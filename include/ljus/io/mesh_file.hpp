@@ -58,8 +58,8 @@ struct MeshImage {
 /// A material as a mesh file describes it.
 struct MeshMaterial {
     std::string name{}; ///< Name in the file; empty for faces without a material.
-    /// Diffuse colour Kd, in [0, 1]; 1 if there is a picture and no Kd above 0. In glTF
-    /// it is the base colour.
+    /// Diffuse colour Kd, in [0, 1]; in glTF the base colour. If the material has a
+    /// picture and Kd is missing or 0, the colour is 1.
     glm::dvec3 diffuse{0.5};
     /// Specular colour Ks, in [0, 1]; in glTF the base colour of a metal.
     glm::dvec3 specular{0};

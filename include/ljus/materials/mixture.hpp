@@ -82,9 +82,9 @@ template <std::floating_point T>
 /// The fractions of light that the lobes of a Mixture scatter.
 template <std::floating_point T>
 struct LobeFractionsT {
-    T diffuse; ///< The matt lobe, in its brightest channel.
-    T refract; ///< The refracted light.
-    T reflect; ///< The mirror and the reflection of the boundary.
+    T diffuse; ///< The fraction of the matt lobe, in its brightest channel.
+    T refract; ///< The fraction that is refracted.
+    T reflect; ///< The fraction that the mirror and the boundary reflect.
     [[nodiscard]] constexpr T sum() const noexcept {
         return diffuse + refract + reflect;
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/reflection.hpp
-/// \brief The mirror direction R = 2I - D.
+/// \brief The direction in which a mirror reflects a ray.
 
 #include "ljus/math/vector.hpp"
 

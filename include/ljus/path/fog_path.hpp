@@ -25,7 +25,7 @@ struct FogSegmentT {
     RgbT<T> throughput{T(1)}; ///< Throughput of the path at the start of the segment.
 };
 
-/// A point of a path where fog scatters it.
+/// A vertex at which fog scatters a path.
 template <std::floating_point T>
 struct FogVertexT {
     SurfacePointT<T> point{}; ///< The position; the normal is 0.

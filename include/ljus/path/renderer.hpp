@@ -26,7 +26,7 @@ struct Counts {
     std::uint64_t map_photons = 0;     ///< Photons summed by density estimates.
     std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons made unnecessary.
     std::uint64_t skipped_bounces = 0; ///< Indirect rays omitted in the dark.
-    std::uint64_t rejected = 0;        ///< Omitted samples that were not finite.
+    std::uint64_t rejected = 0; ///< Samples left out because they were not finite.
     std::uint64_t cut_paths =
         0; ///< Paths ended by the depth limit; their light is missing.
 

@@ -153,16 +153,17 @@ struct PilotLightT {
 
 /// Traces a few photons to each mirror and each glass object, to measure the flux and
 /// the scatter of the object's caustic. These photons are not used for the picture,
-/// because an estimate whose fractions depend on its own photons is biased.
+/// because an estimate is biased if the same photons decide how many are sent to each
+/// object.
 ///
 /// The variance of estimates, summed over a picture, is proportional to
-/// \f$ \sum_i \varphi_i^2 \f$, where \f$ \varphi_i \f$ is the flux of photon i. If an
-/// error counts relative to an irradiance E, photon i adds
-/// \f$ (\varphi_i / E(x_i))^2 \f$. The scatter a_k of object k, from a pilot of n
+/// \f$ \sum_i \varphi_i^2 \f$, where \f$ \varphi_i \f$ is the flux of photon i. If the
+/// error is divided by an irradiance E, photon i adds \f$ (\varphi_i / E(x_i))^2 \f$,
+/// where \f$ x_i \f$ is its position. The scatter a_k of object k, from a pilot of n
 /// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
 /// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
-/// caustic. For `visible` E is the irradiance of all light, plus a tenth of its mean,
-/// which bounds the errors in the dark.
+/// caustic. For `visible` E is the irradiance of all light plus a constant, which
+/// limits the weight of dark places: a tenth of the mean irradiance.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                its photons, 500 to 20 000 per object.

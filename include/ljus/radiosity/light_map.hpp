@@ -171,7 +171,7 @@ private:
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of_{};
     std::vector<std::vector<RgbT<double>>> vertices_{};
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 

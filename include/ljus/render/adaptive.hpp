@@ -390,9 +390,10 @@ trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
     return cost;
 }
 
-/// Adds an estimate of the squared relative error of each pixel of some blocks to
-/// `error`. The estimate has no bias, except for a pixel with a single ray: there the
-/// variance is that of the rays in the blocks around it, which is too large.
+/// Estimates the squared relative error of each pixel of some blocks, and adds the
+/// estimates to `error`. They have no bias for a pixel with several rays. For a pixel
+/// with a single ray the estimate is too large, because it uses the variance of the
+/// rays in the blocks around the pixel.
 inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
                        const RowSums& sums, double epsilon) {
     for (const AdaptiveBlock& block : blocks)

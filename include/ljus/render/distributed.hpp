@@ -52,7 +52,7 @@ private:
     WorldRef<W> world_;
     DistributedSettings settings_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 DistributedTracer(const W&, const DistributedSettings& = {}) -> DistributedTracer<W>;
 

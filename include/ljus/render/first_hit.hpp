@@ -41,7 +41,7 @@ private:
     WorldRef<W> world_;
     FirstHit shown_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
 

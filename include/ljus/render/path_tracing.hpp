@@ -70,7 +70,7 @@ private:
     WorldRef<W> world_;
     PathTracingSettings settings_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 PathTracer(const W&, const PathTracingSettings& = {}) -> PathTracer<W>;
 

@@ -33,7 +33,7 @@ private:
     WorldRef<W> world_;
     int max_depth_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 

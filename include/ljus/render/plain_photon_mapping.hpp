@@ -44,7 +44,7 @@ private:
     PhotonMapT<Scalar> caustics_;
     DensityEstimateSettings how_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
                   const DensityEstimateSettings& = {}) -> PlainPhotonMapper<W>;

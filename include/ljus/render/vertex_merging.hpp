@@ -32,9 +32,10 @@ namespace ljus {
 ///
 ///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
 ///
-/// Suns, skies and moving shapes are refused. The renderer leaves out two effects: the
-/// absorption of an outer body where a joining ray leaves an inner one through rough
-/// glass, and the light of photons that smooth meshes absorb at grazing angles.
+/// Suns, skies and moving shapes are refused. The renderer leaves out two effects. If a
+/// body of rough glass lies inside a second body, a ray that leaves the glass to join
+/// two paths is not absorbed by the second body. At grazing angles, meshes with
+/// interpolated normals absorb some photons, whose light is missing.
 template <typename W>
 class VertexMerger {
 public:
@@ -62,7 +63,7 @@ private:
     LightPathSettings settings_;
     LightPathsT<Scalar> lights_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 VertexMerger(const W&, const LightPathSettings& = {}) -> VertexMerger<W>;
 

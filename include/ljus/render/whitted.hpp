@@ -52,7 +52,7 @@ private:
     WorldRef<W> world_;
     WhittedSettings settings_;
 };
-/// Deduces the world.
+/// Deduces the type of the world.
 template <typename W>
 WhittedTracer(const W&, const WhittedSettings& = {}) -> WhittedTracer<W>;
 

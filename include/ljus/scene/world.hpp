@@ -666,7 +666,7 @@ concept AnyWorld = detail::is_world<W>;
 
 namespace detail {
 
-/// Reports a scene that is not closed at compile time.
+/// Causes a compile error for a scene that is not closed.
 template <typename W>
 struct Closed {
     using Type = W; ///< The world.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief Finds damage in PNG, JPEG and BMP files that stb_image does not test for, and
-/// kinds of files that it does not read.
+/// \brief Tests PNG, JPEG and BMP files for damage that stb_image does not notice, and
+/// for variants of these formats that stb_image does not read.
 
 #include <algorithm>
 #include <array>

@@ -31,8 +31,8 @@ struct VerdictCell {
 
 inline constexpr std::int32_t most_cells = 1 << 20;
 
-/// The key of a cell's brick. It consists of 18 bits per coordinate and of the facing
-/// plus 1, and is never 0.
+/// The key of the brick that contains a cell. The lowest 54 bits hold the brick's
+/// three coordinates. The bits above hold `way` + 1, so that no key is 0.
 [[nodiscard]] constexpr std::uint64_t brick_key(const VerdictCell& cell) noexcept {
     return std::uint64_t(cell.x >> 2) | std::uint64_t(cell.y >> 2) << 18 |
            std::uint64_t(cell.z >> 2) << 36 | std::uint64_t(cell.way + 1) << 54;
