@@ -51,13 +51,16 @@ const edition = (function () {
         });
     }
 
-    // Two headings in a box, which Chromium never breaks if it could scroll, and the number of
-    // a work, which floats, in its text.
+    // Two headings in a box, which Chromium never breaks if it could scroll; the number of a
+    // work, which floats, in its text; and sources in the line of their heading, which would
+    // often be alone on a page.
     function join() {
+        for (const one of document.querySelectorAll(".textblock h1"))
+            if (one.textContent.trim() === "Sources") one.classList.add("edition-sources");
         for (const first of document.querySelectorAll(".textblock :is(h1, h2):has(+ :is(h2, h3))")) {
             const both = make("div", "edition-headings");
             first.before(both);
-            both.append(first, both.nextElementSibling);
+            both.append(first, first.nextElementSibling);
             both.style.height = both.offsetHeight + "px";
         }
         for (const number of document.querySelectorAll("dl.citelist dt")) {
