@@ -55,8 +55,11 @@ const edition = (function () {
     // work, which floats, in its text; and sources in the line of their heading, which would
     // often be alone on a page.
     function join() {
-        for (const one of document.querySelectorAll(".textblock h1"))
-            if (one.textContent.trim() === "Sources") one.classList.add("edition-sources");
+        for (const one of document.querySelectorAll(".textblock h1:has(+ p)"))
+            if (one.textContent.trim() === "Sources") {
+                one.classList.add("edition-sources");
+                one.nextElementSibling.prepend(one);
+            }
         for (const first of document.querySelectorAll(".textblock :is(h1, h2):has(+ :is(h2, h3))")) {
             const both = make("div", "edition-headings");
             first.before(both);
