@@ -233,6 +233,8 @@ const edition = (function () {
     }
 
     function short(order) {
+        const places = new Map(sections.map(section => [ // a chapter that is done has left its section
+            section.id, new Set(Array.from(section.querySelectorAll("[id]"), one => one.id))]));
         return order.map(label => {
             const section = document.getElementById(label);
             const body = make("div", "chapter", make("h1", "", section.dataset.title));
@@ -262,7 +264,7 @@ const edition = (function () {
                 const href = one.getAttribute("href");
                 if (/^[a-z]+:/.test(href)) continue;
                 const to = target(one, label);
-                const there = to && (!to[1] || document.getElementById(to[0]).querySelector(`[id="${to[1]}"]`));
+                const there = to && (!to[1] || places.get(to[0]).has(to[1]));
                 if (there) one.setAttribute("href", `${to[0]}.xhtml${to[1] ? "#" + to[1] : ""}`);
                 else unwrap(one);
             }
