@@ -69,6 +69,8 @@ Hall wire_hall(float width) {
                   .edge_u{5, 0, 0},
                   .edge_v{0, 0, width}},
              hall.add(Lambertian{.albedo{0.5f, 0.25f, 0.1f}}));
+    // A ceiling above the lamp, so that its photons are not aimed at the scene.
+    hall.add(Quad{.corner{-3, 4.5f, -3}, .edge_u{6, 0, 0}, .edge_v{0, 0, 6}}, grey);
     hall.add(PointLight{.position{0, lamp_height, lamp_away}, .intensity = Rgb{20}});
     return Hall(std::move(hall));
 }

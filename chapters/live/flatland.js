@@ -32,9 +32,6 @@ ljusLive.define("flatland", figure => {
     const found = figure.readout("by the k nearest");
     const counted = figure.readout("counted there");
     const radius = figure.readout("radius of the disc");
-    figure.text("Drag the lamp, or along the floor the point that is asked. " +
-                "Blue: straight from the lamp; orange: by glass or mirror; green: " +
-                "after a diffuse wall.");
     begin();
     figure.keep(begin, lamp, "x", "y");
     figure.keep(null, query, "x");

@@ -17,23 +17,21 @@ ljusLive.define("form_factors", figure => {
         angle.value = presets[k].angle;
         side.value = presets[k].side;
         Object.assign(at, presets[k]);
-        changed = true;
+        limit();
     });
-    const angle = figure.slider("turned by", -120, 120, 1, 0, () => { changed = true; },
-                                a => a + "°");
-    const side = figure.slider("side", 0.1, 2, 0.05, 1, () => { changed = true; },
-                               s => s.toFixed(2));
+    const angle = figure.slider("turned by", -120, 120, 1, 0, () => limit(), a => a + "°");
+    const side = figure.slider("side", 0.1, 2, 0.05, 1, () => limit(), s => s.toFixed(2));
     const closed = figure.readout("closed form, from orange to blue");
     const back = figure.readout("from blue to orange");
     const byRays = figure.readout("by rays");
     const byPairs = figure.readout("by pairs of points");
     Object.assign(at, presets[0]);
-    figure.keep(() => { changed = true; }, at, "x", "z");
+    figure.keep(() => limit(), at, "x", "z");
     let changed = true, exact = 0, rows = [];
     figure.onDrag(room, spot => {
         at.x += spot.dx / (scale * Math.cos(turn));
         at.z -= spot.dy / (scale * Math.cos(lift));
-        changed = true;
+        limit();
     });
 
     // From the side and a little above; x to the right, z up, y away.
@@ -56,11 +54,15 @@ ljusLive.define("form_factors", figure => {
         pen.stroke();
     }
 
-    function moveOther() {
+    function limit() { // above the floor, and in the picture
         const reach = side.value / 2;
         const low = reach * Math.abs(Math.sin(angle.value * Math.PI / 180));
         at.x = Math.max(-1.5, Math.min(1.5, at.x));
         at.z = Math.max(Math.max(low, 0.02), Math.min(2, at.z));
+        changed = true;
+    }
+
+    function moveOther() {
         wasm.place(at.x, at.z, angle.value, side.value);
         exact = wasm.closed_form();
         rows = [];

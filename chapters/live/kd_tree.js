@@ -10,9 +10,9 @@ ljusLive.define("kd_tree", figure => {
     const set = figure.choice("photons", ["spread evenly", "a caustic"], 1, () => build());
     const halvings = figure.slider("halvings shown", 0, 7, 1, 7, null);
     const wanted = figure.slider("k nearest", 1, 200, 1, 40, () => { changed = true; });
-    const within = figure.slider("within the radius", 0.02, 1.5, 0.01, 1.5,
+    const within = figure.slider("within the radius", 0.02, 0.5, 0.01, 0.5,
                                  () => { changed = true; },
-                                 r => r >= 1.5 ? "any" : r.toFixed(2));
+                                 r => r >= 0.5 ? "any" : r.toFixed(2));
     figure.button("search step by step", () => { step = 0; });
     const computed = figure.readout("distances computed");
     const asked = figure.readout("boxes asked");
@@ -48,7 +48,7 @@ ljusLive.define("kd_tree", figure => {
         changed = true;
     });
     function search() {
-        const radius = within.value >= 1.5 ? 10 : within.value;
+        const radius = within.value >= 0.5 ? 10 : within.value;
         const steps = wasm.search(at.x, at.y, wanted.value, radius);
         order = Array.from(figure.ints(wasm.search_order(), steps));
         reaches = Array.from(figure.floats(wasm.search_reach(), steps));

@@ -389,9 +389,9 @@ var ljusLive = (function () {
         figure.play = (one, seconds, from, to) => {
             const min = () => from ?? one.min, max = () => to ?? one.max;
             let at = null, last = null, put = 0; // where it is; null: it stands still
-            let asked = false;                   // by a reader: the address follows
+            let asked = false; // by a reader: the address follows, as one of this figure does
             const go = start => {
-                if (asked && start === null) writeSettings();
+                if (start === null && (asked || addressed(name).length)) writeSettings();
                 at = start;
                 last = null;
                 put = one.value;

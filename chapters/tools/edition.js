@@ -51,13 +51,19 @@ const edition = (function () {
         });
     }
 
-    // Two headings in a box, which Chromium never breaks if it could scroll, and the number of
-    // a work, which floats, in its text.
+    // Two headings in a box, which Chromium never breaks if it could scroll; the number of a
+    // work, which floats, in its text; and sources in the line of their heading, which would
+    // often be alone on a page.
     function join() {
+        for (const one of document.querySelectorAll(".textblock h1:has(+ p)"))
+            if (one.textContent.trim() === "Sources") {
+                one.classList.add("edition-sources");
+                one.nextElementSibling.prepend(one);
+            }
         for (const first of document.querySelectorAll(".textblock :is(h1, h2):has(+ :is(h2, h3))")) {
             const both = make("div", "edition-headings");
             first.before(both);
-            both.append(first, both.nextElementSibling);
+            both.append(first, first.nextElementSibling);
             both.style.height = both.offsetHeight + "px";
         }
         for (const number of document.querySelectorAll("dl.citelist dt")) {
@@ -227,6 +233,8 @@ const edition = (function () {
     }
 
     function short(order) {
+        const places = new Map(sections.map(section => [ // a chapter that is done has left its section
+            section.id, new Set(Array.from(section.querySelectorAll("[id]"), one => one.id))]));
         return order.map(label => {
             const section = document.getElementById(label);
             const body = make("div", "chapter", make("h1", "", section.dataset.title));
@@ -256,7 +264,7 @@ const edition = (function () {
                 const href = one.getAttribute("href");
                 if (/^[a-z]+:/.test(href)) continue;
                 const to = target(one, label);
-                const there = to && (!to[1] || document.getElementById(to[0]).querySelector(`[id="${to[1]}"]`));
+                const there = to && (!to[1] || places.get(to[0]).has(to[1]));
                 if (there) one.setAttribute("href", `${to[0]}.xhtml${to[1] ? "#" + to[1] : ""}`);
                 else unwrap(one);
             }

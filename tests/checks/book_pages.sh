@@ -39,7 +39,8 @@ cat >html/ch_sphere.html <<'END'
 <object type="image/svg+xml" data="plot.svg" style="pointer-events: none;"></object>
 <div class="caption">
 Error against time</div></div>
-<div class="fragment"><div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
+<div class="fragment"><div class="line"><a id="l00009" name="l00009"></a><span class="lineno">    9</span> </div>
+<div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
 <dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance, \(k\) of \(\frac{a}{b}\).</dd></dl>
 <h3>&lt;tt&gt;eon&lt;/tt&gt;</h3>
 <p ><details>
@@ -60,7 +61,7 @@ grep -q '<body class="ljus-page">' $page || wrong "a page of the book has no cla
 grep -q 'polyfill' $page && wrong "a script comes from the network"
 grep -q 'alt="Two balls."' $page || wrong "a picture has no alt text"
 grep -q '<img src="plot.svg" alt="Error against time"/>' $page || wrong "a plot stands in a frame"
-grep -q 'std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
+grep -q '"fragment"><div class="line">std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
 grep -q '<h3><code>eon</code></h3>' $page || wrong "a heading shows the marks of code"
 grep -q '<td>280</td><td>1.5</td><td>-10100</td><td>5.4e-05</td><td>1e+06 times</td>' $page ||
     wrong "a cell is not written out: $(grep '<td>' $page)"
