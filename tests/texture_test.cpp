@@ -353,8 +353,8 @@ TEST_CASE("texture: a UvMap scales, then turns, then displaces") {
         return refusal(Textured<Lambertian, UvPicture>{{}, {four(), odd}});
     };
     CHECK(why({.turn{1, 1}}) ==
-          "the squared length of uv_map.turn is 2; it must be 1: it is the cosine and "
-          "the sine of an angle.");
+          "the squared length of uv_map.turn is 2; it must be 1, because it is the "
+          "cosine and the sine of an angle.");
     CHECK(why({.offset{0, NAN}}).find("uv_map.offset is") == 0);
     CHECK(why({.turn{0.6f, -0.8f}}).empty());
 }
