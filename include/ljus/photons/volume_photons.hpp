@@ -36,10 +36,10 @@ namespace ljus {
 ///     \Delta\Phi_i , \f]
 ///
 /// where d_i is the distance at which the ray passes photon i, t_i the length of the
-/// ray up to there, and r_i the radius of the photon. Only photons with d_i < r_i
-/// count. w is the weight of the kernel, \f$ \varrho \f$ the phase function,
-/// \f$ \theta_i \f$ the angle by which light is turned, T the transmittance of the fog,
-/// and \f$ \Delta\Phi_i \f$ the flux of the photon.
+/// ray up to its point nearest to the photon, and r_i the radius of the photon. Only
+/// photons with d_i < r_i count. w is the weight of the kernel, \f$ \varrho \f$ the
+/// phase function, \f$ \theta_i \f$ the angle by which light is turned, T the
+/// transmittance of the fog, and \f$ \Delta\Phi_i \f$ the flux of the photon.
 /// \{
 
 /// A photon in fog.
@@ -48,7 +48,7 @@ struct VolumePhotonT {
     Vec3T<T> position{T(0)};  ///< Point where fog scatters the photon, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
     RgbT<T> flux{T(0)};       ///< Scattered flux, in W.
-    T radius = T(1); ///< Radius of the ball over which the flux is spread; above 0.
+    T radius = T(1); ///< Radius of the ball that holds the flux, in scene units.
     std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
 };
 using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
@@ -163,7 +163,7 @@ template <std::floating_point T>
 ///                distance to the next surface.
 /// \param kernel  The kernel.
 /// \return W/(m^2 sr) at the origin of the ray. 0 if the ray passes the photon at a
-///         distance above the photon's radius, or ends before.
+///         distance above the photon's radius, or ends before it reaches the photon.
 // [beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> light_of_photon(const W& world, const VolumePhotonT<T>& photon,

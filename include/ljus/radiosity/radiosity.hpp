@@ -68,8 +68,8 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution. It also contains the light that is still unshot. Its
-/// key has only the hash of the scene; see light_map_key().
+/// The light map of a solution, including the light that is still unshot. The key of
+/// the map has only the hash of the scene; see light_map_key().
 /// \param world      The closed scene.
 /// \param patches    The patches.
 /// \param factors    The form factors.

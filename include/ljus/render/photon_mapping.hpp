@@ -187,7 +187,7 @@ blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
                  "large radius; trace more, or let rays carry it"});
 }
 
-/// Runs the photon passes: the maps that the plan asks for, and no others.
+/// Runs the photon passes for the maps that the plan asks for, and for no others.
 /// \param world     The closed scene.
 /// \param settings  Photons, seed, threads.
 /// \param run       Which passes run.
@@ -388,7 +388,7 @@ public:
 
     /// Takes caustics photons that were traced by other machines or read from a file.
     /// \param caustics  Photons L S+ D of this world. If the settings give a radius of
-    ///                  0, the radius is chosen from them.
+    ///                  0, the mapper chooses one from these photons.
     /// \throws std::invalid_argument  if the mapper has traced caustics photons itself,
     ///         or has computed irradiance points without them.
     void set_caustics(PhotonMapT<Scalar> caustics) {
@@ -678,9 +678,9 @@ inline constexpr int split_survival = 16;
 /// by one branch. With IndirectLight::map the general map is queried at the first
 /// diffuse surface that an indirect ray meets; with IndirectLight::photons, at the
 /// diffuse surface that the camera path meets. With split_glass a path follows both
-/// branches at glass until it meets a diffuse surface. Without it, one path in a few
-/// hundred is reflected inside a glass ball to a lamp, and makes its pixel a hundred
-/// times too bright.
+/// branches at glass until it meets a diffuse surface. Without split_glass, one path in
+/// a few hundred is reflected inside a glass ball to a lamp, and makes its pixel a
+/// hundred times too bright.
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts rays and photons, logs terms.

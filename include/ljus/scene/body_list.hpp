@@ -55,7 +55,7 @@ struct BodyRanks {
     /// The materials; that of rank r has the index r - 1.
     std::vector<MaterialId> materials{};
     std::vector<std::vector<std::uint8_t>>
-        ranks{};              ///< The rank by a material's type and index; 0 if opaque.
+        ranks{}; ///< The rank of each material, by type and index; 0 if opaque.
     bool prioritized = false; ///< Whether any material has a priority other than 0.
 };
 
