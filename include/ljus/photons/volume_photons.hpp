@@ -159,8 +159,8 @@ template <std::floating_point T>
 /// The radiance that one photon adds to a ray.
 /// \param world   The closed scene.
 /// \param photon  The photon.
-/// \param ray     The ray, with a unit direction, outside all bodies. Its t_max is the
-///                distance to the next surface.
+/// \param ray     The ray, which has a unit direction and lies outside all bodies. Its
+///                t_max is the distance to the next surface.
 /// \param kernel  The kernel.
 /// \return W/(m^2 sr) at the origin of the ray. 0 if the ray passes the photon at a
 ///         distance above the photon's radius, or ends before it reaches the photon.
@@ -198,7 +198,7 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 }
 // [plain beam]
 
-/// The radiance that fog scatters along a ray to its origin, by the photons of a map.
+/// The radiance that fog scatters along a ray to its origin, from the photons of a map.
 /// The estimate is too dark near the border of the fog and near surfaces, because a
 /// part of a ball lies outside the fog. Objects between a photon and the ray are
 /// ignored.

@@ -38,8 +38,9 @@ struct Radiosity {
 /// \param patches    The patches.
 /// \param factors    The form factors.
 /// \param radiosity  The radiosity of each patch, in W/m^2.
-/// \return For an exact solution, emitted is absorbed plus escaped, up to rounding, for
-///         any size of patches and any number of rays.
+/// \return For an exact solution, the emitted flux is the sum of the absorbed and the
+///         escaped flux, up to rounding, for any size of patches and any number of
+///         rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {

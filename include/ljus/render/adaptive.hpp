@@ -37,7 +37,7 @@ struct AdaptiveSettings {
     /// a target, 1 is enough.
     int first = 16;
     /// Number of rays per pixel in each batch after the first rays, at least 1; with
-    /// `two_stage`, at least 2. With `disagreement` it is the largest number.
+    /// `two_stage`, at least 2. With `disagreement`, a batch may have fewer.
     int more = 16;
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     /// Side of a square block, in pixels. The pixels of a block share one estimate of

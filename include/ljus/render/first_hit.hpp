@@ -22,8 +22,8 @@ enum class FirstHit {
     depth   ///< The distance along the ray, in scene units; 0 for a ray without a hit.
 };
 
-/// A renderer that shows the first hit of each primary ray. Thin surfaces let rays pass
-/// by chance, as in every renderer.
+/// A renderer that shows the first hit of each primary ray. Whether a ray passes a
+/// thin surface is random, as in every renderer.
 template <typename W>
 class FirstHitRenderer {
 public:

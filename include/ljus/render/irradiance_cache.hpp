@@ -116,8 +116,8 @@ struct GatheredRowT {
     Counts counts{};                   ///< Cost of the gathering.
 };
 
-/// Gathers irradiance where a camera ray meets its first diffuse surface. These places
-/// are the points of an irradiance cache \cite ward1988 . The ray follows mirrors and
+/// Gathers irradiance at the point where a camera ray meets its first diffuse surface:
+/// a point of an irradiance cache \cite ward1988 . The ray follows mirrors and
 /// is split at glass, so that one ray may give several points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,

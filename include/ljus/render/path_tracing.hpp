@@ -194,8 +194,8 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 /// Each diffuse surface sends a shadow ray to one light, chosen by power; the path then
 /// continues in a direction sampled by the material. A lamp that the path meets counts
 /// with the path's weight of multiple importance sampling. After a mirror or glass,
-/// this weight is 1, because no shadow ray could find the lamp. A scattering in fog counts as a
-/// diffuse surface, also in max_depth.
+/// this weight is 1, because no shadow ray could find the lamp. A scattering in fog
+/// counts as a diffuse surface, also in max_depth.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.

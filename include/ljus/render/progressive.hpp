@@ -138,7 +138,8 @@ struct ProgressiveError {
 /// \param state  The earlier passes.
 /// \param image  The picture of the pass; every channel is finite.
 /// \throws std::invalid_argument  if alpha is not in (0, 1], the side of blocks is
-///         below 1, or the picture differs in size from the first or contains a NaN.
+///         below 1, the picture differs in size from the first, or a channel is not
+///         finite.
 // [add_pass]
 template <std::floating_point T>
 void add_pass(ProgressiveState& state, const ImageT<T>& image) {
@@ -176,8 +177,8 @@ template <std::floating_point T = float>
     return mean;
 }
 
-/// The noise of the picture so far, without its bias; see ProgressiveError.
-/// \return Standard errors in W/(m^2 sr); infinity for fewer than two passes.
+/// The noise of the picture so far, in which bias is not counted; see ProgressiveError.
+/// \return Standard errors, in W/(m^2 sr); infinity for fewer than two passes.
 [[nodiscard]] inline ProgressiveError estimate_error(const ProgressiveState& state) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (state.passes < 2) return {unknown, unknown};
@@ -209,8 +210,8 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 // [run]
 
 /// Checks that the passes so far belong to the picture that is to be continued. The
-/// first pass is rendered again, and all bits are compared. They depend on the world,
-/// camera, settings, seed, program and machine.
+/// first pass is rendered again, and all bits are compared. The bits depend on the
+/// world, camera, settings, seed, program and machine.
 /// \param state  The state of a checkpoint.
 /// \param pass   The function that will render further passes; see \ref progressive.
 /// \throws std::invalid_argument  if the first pass differs.

@@ -188,7 +188,7 @@ void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& c
 } // namespace detail
 
 /// The radiance that one camera path finds, with one light path for connections and all
-/// of them for merging.
+/// light paths for merging.
 /// \param merger   World and light paths.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.

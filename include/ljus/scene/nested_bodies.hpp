@@ -37,7 +37,7 @@ template <std::floating_point T>
 struct CrossingT {
     SceneHitT<T> hit{}; ///< The surface, chosen from all coinciding surfaces.
     BodyList before{};  ///< The bodies before the surface.
-    /// The bodies behind the surface: the same as before an opaque or thin surface.
+    /// The bodies behind the surface; for an opaque or thin surface, equal to `before`.
     BodyList behind{};
     bool hidden = false;  ///< Whether the surface is ignored.
     bool entered = false; ///< Whether the surface belongs to the body behind it.
