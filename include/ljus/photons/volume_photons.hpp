@@ -88,8 +88,8 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 namespace detail {
 
 /// Sets the radius of each photon to the distance to its n-th nearest neighbour, where
-/// n is `nearest`. If this distance is 0, the radius is a thousandth of the extent of
-/// all photons.
+/// n is `nearest`. If this distance is 0, the radius is a thousandth of the longest
+/// side of the photons' bounding box.
 // [radii]
 template <std::floating_point T>
 [[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,

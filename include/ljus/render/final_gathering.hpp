@@ -72,8 +72,8 @@ struct GatherLookupT {
     /// be null.
     const PhotonMapT<T>* general = nullptr;
     IrradiancePointSettings irradiance{}; ///< How the points were made.
-    /// The caustics map, for these estimates of irradiance and for glossy surfaces; may
-    /// be null.
+    /// The caustics map, for estimates of irradiance and for glossy surfaces; may be
+    /// null.
     const PhotonMapT<T>* caustics = nullptr;
     /// How caustics on glossy surfaces are estimated.
     DensityEstimateSettings caustics_estimate{};

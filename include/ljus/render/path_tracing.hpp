@@ -111,7 +111,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [emitted]
 
-/// The radiance of the sky for a path that leaves the scene, times its MIS weights.
+/// The radiance of the sky for a path that leaves the scene, times the MIS weights of
+/// the path.
 /// \return Throughput times radiance times the weight.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> escaped(const PathTracer<W>& tracer, const PathStateT<T>& path) {

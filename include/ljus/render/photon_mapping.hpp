@@ -31,7 +31,7 @@ namespace ljus {
 /// | E S* L          | emission, while no diffuse surface has been met             |
 /// | E ... D L       | shadow rays, or the verdict of shadow photons               |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
-/// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
+/// | E ... D ... D.. | indirect rays, or the general map where the first ray ends  |
 ///
 /// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
 /// scatters light towards the eye along each ray of a camera path. Of this light,
@@ -273,8 +273,8 @@ template <std::floating_point T>
                  to_text(radius), "; trace more, or choose a caustic budget\n"});
 }
 
-/// A remark about an estimate whose radius seems to be in a wrong unit. Either hardly
-/// any estimate finds a photon, or every estimate finds all photons.
+/// A remark about estimates whose radius seems to be in a wrong unit: hardly any
+/// estimate finds a photon, or every estimate finds all photons.
 /// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
@@ -520,8 +520,8 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 
 /// How direct light is found at a surface. If a path continues at a glossy surface, its
 /// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
-/// surfaces after the first diffuse one, one shadow ray to each light is enough, unless
-/// nearly specular surfaces count as mirrors.
+/// surfaces after the first diffuse surface, a single shadow ray to each light is
+/// enough, unless nearly specular surfaces count as mirrors.
 /// \param path  The path at the surface.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>

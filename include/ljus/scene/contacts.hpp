@@ -92,7 +92,7 @@ struct Contact {
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
     ContactKind kind = ContactKind::opaque; ///< The kind of the object's surface.
-    /// The key; of several surfaces, a path meets that with the smallest key.
+    /// The key. Of several surfaces, a path meets the surface with the smallest key.
     ContactKey key{};
     std::uint32_t contact = no_contact; ///< The object's first contact.
 };
