@@ -36,10 +36,10 @@ namespace ljus {
 ///     \Delta\Phi_i , \f]
 ///
 /// where d_i is the distance at which the ray passes photon i, t_i the length of the
-/// ray up to there, and r_i the radius of the photon. Only photons with d_i < r_i
-/// count. w is the weight of the kernel, \f$ \varrho \f$ the phase function,
-/// \f$ \theta_i \f$ the angle by which light is turned, T the transmittance of the fog,
-/// and \f$ \Delta\Phi_i \f$ the flux of the photon.
+/// ray up to its point nearest to the photon, and r_i the radius of the photon. Only
+/// photons with d_i < r_i count. w is the weight of the kernel, \f$ \varrho \f$ the
+/// phase function, \f$ \theta_i \f$ the angle by which light is turned, T the
+/// transmittance of the fog, and \f$ \Delta\Phi_i \f$ the flux of the photon.
 /// \{
 
 /// A photon in fog.
@@ -48,7 +48,7 @@ struct VolumePhotonT {
     Vec3T<T> position{T(0)};  ///< Point where fog scatters the photon, in scene units.
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
     RgbT<T> flux{T(0)};       ///< Scattered flux, in W.
-    T radius = T(1); ///< Radius of the ball over which the flux is spread; above 0.
+    T radius = T(1); ///< Radius of the ball that holds the flux, in scene units.
     std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
 };
 using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
@@ -88,8 +88,8 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 namespace detail {
 
 /// Sets the radius of each photon to the distance to its n-th nearest neighbour, where
-/// n is `nearest`. If this distance is 0, the radius is a thousandth of the extent of
-/// all photons.
+/// n is `nearest`. If this distance is 0, the radius is a thousandth of the longest
+/// side of the photons' bounding box.
 // [radii]
 template <std::floating_point T>
 [[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,
@@ -159,11 +159,11 @@ template <std::floating_point T>
 /// The radiance that one photon adds to a ray.
 /// \param world   The closed scene.
 /// \param photon  The photon.
-/// \param ray     The ray, with a unit direction, outside all bodies. Its t_max is the
-///                distance to the next surface.
+/// \param ray     The ray, which has a unit direction and lies outside all bodies. Its
+///                t_max is the distance to the next surface.
 /// \param kernel  The kernel.
 /// \return W/(m^2 sr) at the origin of the ray. 0 if the ray passes the photon at a
-///         distance above the photon's radius, or ends before.
+///         distance above the photon's radius, or ends before it reaches the photon.
 // [beam]
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> light_of_photon(const W& world, const VolumePhotonT<T>& photon,
@@ -198,7 +198,7 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 }
 // [plain beam]
 
-/// The radiance that fog scatters along a ray to its origin, by the photons of a map.
+/// The radiance that fog scatters along a ray to its origin, from the photons of a map.
 /// The estimate is too dark near the border of the fog and near surfaces, because a
 /// part of a ball lies outside the fog. Objects between a photon and the ray are
 /// ignored.

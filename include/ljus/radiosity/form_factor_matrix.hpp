@@ -42,10 +42,12 @@ struct FormFactors {
 
 /// How form factors are computed.
 struct FormFactorSettings {
-    bool analytic = true; ///< Whether flat patches use the closed form.
-    int rays = 256; ///< Number of rays per patch, for patches without the closed form.
-    /// Rays between two flat patches, to find the visible fraction. None are cast in a
-    /// convex scene, see Patches::convex.
+    /// Whether the form factors between flat patches are computed by the closed form.
+    bool analytic = true;
+    /// Number of rays from each patch whose form factors have no closed form.
+    int rays = 256;
+    /// Number of rays between two flat patches, to find the visible fraction. In a
+    /// convex scene no rays are cast, see Patches::convex.
     int shadow_rays = 16;
     /// Whether to make each row sum exactly 1, for a room without openings.
     bool closed = false;
@@ -86,9 +88,10 @@ inline bool close_rows(FormFactors& factors) {
 } // namespace detail
 
 /// Computes the form factors between all patches. Between two flat patches, the form
-/// factor is the closed form times the visible fraction. For all other pairs, rays are
-/// cast from each patch of the pair that is not flat; without settings.analytic, from
-/// both patches. Two results are averaged with the weights of the least noise.
+/// factor is the closed form times the visible fraction. For any other pair, rays are
+/// cast from each patch that is not flat. If both patches cast rays, the two results
+/// are averaged with the weights that give the least noise. Without settings.analytic,
+/// all patches cast rays.
 /// \param world     The closed scene.
 /// \param all       The patches.
 /// \param settings  The settings.

@@ -21,8 +21,8 @@ namespace ljus {
 /// real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
-/// Identifies the scene and the settings of which a light map was made; see
-/// light_map_key(). A saved map can be loaded for the same key only.
+/// Identifies the scene and the settings from which a light map was made; see
+/// light_map_key(). A saved map can only be loaded for the same key.
 struct LightMapKey {
     std::uint64_t scene = 0;    ///< Hash of shapes, materials and lights.
     std::uint64_t settings = 0; ///< Hash of the settings that change the map.
@@ -33,7 +33,7 @@ struct LightMapKey {
 /// The irradiance of all patches of a scene. The albedo of a surface is applied when
 /// the map is drawn.
 struct LightMap {
-    LightMapKey key{};                      ///< Identifies scene and settings.
+    LightMapKey key{};                      ///< The scene and settings of the map.
     std::vector<PatchGrid> grids{};         ///< One grid per side of an object.
     std::vector<RgbT<double>> irradiance{}; ///< Irradiance of each patch, in W/m^2.
 };
@@ -63,8 +63,8 @@ template <AnyWorld W>
 }
 
 /// The indices of a cell's vertices in its grid: four for a quad or a ball, three and
-/// no_grid for a triangle. On a ball the lines of vertices before the first and after
-/// the last column are single vertices, the poles.
+/// no_grid for a triangle. The first and the last column of cells on a ball end at its
+/// poles, each of which is a single vertex.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {

@@ -168,7 +168,7 @@ template <std::floating_point T>
 }
 
 /// Samples a point of a cell, uniformly over its area.
-/// \return The point. Its normal is on the side of the grid.
+/// \return The point, with the normal of the side that the grid divides.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
                                            std::uint32_t cell,
@@ -188,7 +188,8 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// The corners of a cell of a flat shape. The facet faces the side of the grid.
+/// The corners of a cell of a flat shape. The facet's normal is that of the side that
+/// the grid divides.
 /// \param whole  The corners of the shape.
 /// \param cell   The index of the cell within the grid.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,

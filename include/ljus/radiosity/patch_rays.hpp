@@ -23,7 +23,7 @@ namespace detail {
 /// Samples a point of a patch, uniformly over its area.
 /// \param number  The index of the patch.
 /// \param u       Point of the unit square.
-/// \return The point. Its normal is on the side of the patch.
+/// \return The point, with the normal of the patch.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
@@ -60,8 +60,9 @@ template <AnyWorld W, std::floating_point T>
 /// \param number  The index of the patch.
 /// \param rays    The number of rays, at least 1.
 /// \param seed    Seed of the random streams.
-/// \param row     The exchange areas of the patch. Each ray adds the area of the patch
-///                over the number of rays to the element of the patch that it hits.
+/// \param row     The exchange areas of the patch. A ray that hits patch j adds
+///                area / rays to element j, where `area` is the area of the casting
+///                patch.
 // [shoot_rays]
 template <AnyWorld W>
 void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int rays,
@@ -95,7 +96,7 @@ namespace detail {
 
 /// The visible fraction of the exchange between two patches, by rays between random
 /// points of both patches. The weight of a ray is the product of the cosines at its
-/// ends over its squared length.
+/// ends, divided by its squared length.
 /// \param one   The index of one patch.
 /// \param two   The index of the other patch.
 /// \param rays  The number of rays, at least 1.

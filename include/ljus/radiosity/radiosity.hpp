@@ -38,8 +38,9 @@ struct Radiosity {
 /// \param patches    The patches.
 /// \param factors    The form factors.
 /// \param radiosity  The radiosity of each patch, in W/m^2.
-/// \return For an exact solution, emitted is absorbed plus escaped, up to rounding, for
-///         any size of patches and any number of rays.
+/// \return For an exact solution, the emitted flux is the sum of the absorbed and the
+///         escaped flux, up to rounding, for any size of patches and any number of
+///         rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -68,8 +69,8 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution. It also contains the light that is still unshot. Its
-/// key has only the hash of the scene; see light_map_key().
+/// The light map of a solution, including the light that is still unshot. The key of
+/// the map has only the hash of the scene; see light_map_key().
 /// \param world      The closed scene.
 /// \param patches    The patches.
 /// \param factors    The form factors.

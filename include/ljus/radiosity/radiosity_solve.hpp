@@ -32,9 +32,9 @@ enum class RadiositySolver : std::uint8_t {
 struct SolveSettings {
     RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
     /// The solver stops when the unshot flux is at most this fraction of the emitted
-    /// flux.
+    /// flux, in every channel.
     double tolerance = 1e-12;
-    int max_sweeps = 10000; ///< The largest number of sweeps of n steps each.
+    int max_sweeps = 10000; ///< The largest number of sweeps.
     /// Number of threads of RadiositySolver::jacobi, as in ParallelSettings.
     int threads = 0;
 };
@@ -42,7 +42,8 @@ struct SolveSettings {
 /// The radiosity of all patches.
 struct RadiositySolution {
     std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, in W/m^2.
-    /// The unshot flux over the emitted flux: at the start, and after each sweep.
+    /// The unshot flux divided by the emitted flux, in the channel where this fraction
+    /// is largest: at the start, and after each sweep.
     std::vector<double> residual{};
     bool converged = true; ///< True if the tolerance was reached.
 };
@@ -80,8 +81,8 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
 /// Solves the equations by elimination. If the albedo of every patch is grey, all
 /// channels are solved at once, otherwise one channel after the other.
 /// \return Radiosity, in W/m^2.
-/// \cost Memory for n^2 numbers, and n^3/3 multiplications per solution: 10 s for 3000
-///       patches.
+/// \cost Memory for n^2 numbers, and n^3/3 multiplications per solution, for n patches:
+///       10 s for 3000 patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
 solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     const std::size_t n = patches.size();
@@ -111,7 +112,7 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
 /// The irradiance of all patches.
 /// \param radiosity  The radiosity of each patch, in W/m^2.
 /// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
-/// \cost n^2 multiplications per channel.
+/// \cost n^2 multiplications per channel, for n patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
 multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
          int threads = 0) {
@@ -154,8 +155,9 @@ inline void require_loss(const FormFactors& factors,
 
 /// Shoots the unshot light of all patches at once: one bounce.
 /// \param solution  The radiosity, in W/m^2. The shot light is added.
-/// \param unsent    The unshot light, in W/m^2. Receives the light after the bounce.
-/// \cost n^2 multiplications per channel.
+/// \param unsent    The unshot light, in W/m^2. Receives the reflected light, which is
+///                  unshot after the bounce.
+/// \cost n^2 multiplications per channel, for n patches.
 inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
                       int threads, std::vector<RgbT<double>>& solution,
                       std::vector<RgbT<double>>& unsent) {
@@ -172,9 +174,10 @@ inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patc
 /// \param factors   The form factors.
 /// \param patches   The patches.
 /// \param i         The index of the patch.
-/// \param solution  The radiosity in W/m^2. The shot light is added to that of patch i.
-/// \param unsent    The unshot light in W/m^2. That of patch i becomes 0.
-/// \cost n multiplications per channel.
+/// \param solution  The radiosity, in W/m^2. The shot light is added to element i.
+/// \param unsent    The unshot light, in W/m^2. Element i becomes 0; the others receive
+///                  the light that their patches reflect.
+/// \cost n multiplications per channel, for n patches.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
                         std::size_t i, std::vector<RgbT<double>>& solution,
@@ -218,7 +221,7 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 /// \throws std::invalid_argument  if the albedo of a patch times its row sum is not
 ///         below 1. This happens for an albedo of 1 in a closed room, or if the noise
 ///         of rays makes a row sum larger than 1.
-/// \cost n^2 multiplications per sweep and channel; n^3/3 for `lu`.
+/// \cost For n patches, n^2 multiplications per sweep and channel; n^3/3 for `lu`.
 /// \report{Section 2.2}
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,

@@ -33,25 +33,25 @@ namespace ljus {
 /// How rays are allocated to pixels. The bias that `two_stage` avoids is described in
 /// \cite kirk1991.
 struct AdaptiveSettings {
-    int first = 16; ///< First rays of every pixel: at least 2, or at least 1 with
-                    ///< `disagreement` and no target.
-    /// Rays per pixel in a batch, which follows the first rays: at least 1, or 2 with
-    /// `two_stage`. With `disagreement`, the largest number of rays per pixel in a
-    /// batch.
+    /// Number of first rays of every pixel, at least 2. With `disagreement` and without
+    /// a target, 1 is enough.
+    int first = 16;
+    /// Number of rays per pixel in each batch after the first rays, at least 1; with
+    /// `two_stage`, at least 2. With `disagreement`, a batch may have fewer.
     int more = 16;
     int batches = 1000; ///< Largest number of batches per pixel, at least 0.
     /// Side of a square block, in pixels. The pixels of a block share one estimate of
     /// variance and get the same number of rays.
     int block = 1;
-    double target = 0; ///< Rendering stops when the estimated relMSE is at most this;
-                       ///< 0: no target.
+    double target = 0; ///< Rendering stops when the estimated relMSE is at most this
+                       ///< number; 0: no target.
     /// If above 0, each block gets one batch after its first rays. The number of rays
     /// in the batch is proportional to the relative standard deviation of the first
     /// rays of the eight blocks around it. Where that deviation is at least this
     /// number, the batch has `more` rays.
     double disagreement = 0;
-    double epsilon = 0.01; ///< Added to the squared mean that divides a variance, as
-                           ///< in rel_mse().
+    /// Added to a squared mean before a variance is divided by it, as in rel_mse().
+    double epsilon = 0.01;
     /// Whether the first rays only decide how many rays follow and are then discarded,
     /// which removes the bias. Not allowed with `disagreement`, which has no bias.
     bool two_stage = false;
@@ -85,7 +85,7 @@ template <std::floating_point T>
 struct AdaptiveT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
     ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
-    double estimate = 0;  ///< An estimate of the relMSE, without bias.
+    double estimate = 0;  ///< An estimate of the relMSE that noise causes.
     bool reached = false; ///< Whether the estimate is at most the target.
     Counts counts{};      ///< Cost of the picture.
     bool complete = true; ///< False if the progress callback stopped the work.
@@ -420,9 +420,9 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 }
 
 /// The number of rows of blocks in a band. Each band is finished before the next one
-/// begins, which saves memory. With `disagreement`, no target and enough samples, a
-/// block depends only on the blocks around it, so that a band may be short. In all
-/// other cases one band contains all rows.
+/// begins, which saves memory. With `disagreement`, without a target and with at least
+/// `first` + `more` samples, the rays of a block depend only on the blocks around it,
+/// so that a band may be short. In all other cases one band contains all rows.
 [[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
                                       const AdaptiveSettings& rule) noexcept {
     const int all = static_cast<int>(block_count(picture.height, rule.block));
@@ -457,8 +457,8 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 ///         there are fewer samples than first rays.
 /// \cost The time of the rays. The result takes 24 bytes per pixel in float. During
 ///       rendering, about 200 bytes more are needed per pixel. With `disagreement`, no
-///       target and enough samples, they are needed only for 4096 pixels per thread,
-///       but at least for 16384 pixels.
+///       target and at least `first` + `more` samples, they are needed only for 4096
+///       pixels per thread, but at least for 16384 pixels.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>

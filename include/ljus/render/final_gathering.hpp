@@ -72,7 +72,8 @@ struct GatherLookupT {
     /// be null.
     const PhotonMapT<T>* general = nullptr;
     IrradiancePointSettings irradiance{}; ///< How the points were made.
-    /// The caustics map, for such estimates and for glossy surfaces; may be null.
+    /// The caustics map, for estimates of irradiance and for glossy surfaces; may be
+    /// null.
     const PhotonMapT<T>* caustics = nullptr;
     /// How caustics on glossy surfaces are estimated.
     DensityEstimateSettings caustics_estimate{};
@@ -97,8 +98,8 @@ struct GatherRayT {
 namespace detail {
 
 /// The irradiance on the side of a surface into which a direction points. If no
-/// irradiance point is near, the irradiance is estimated from the maps, as it was at
-/// the points. Without a general map it is then 0.
+/// irradiance point is near, the irradiance is estimated from the maps, by the same
+/// method as at the points; without a general map, the result is 0.
 /// \param lookup   The points and the maps.
 /// \param resting  The surface, as detail::at_rest() returns it.
 /// \param wi       The direction, in the frame of the surface.
@@ -119,8 +120,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                lookup.irradiance, lookup.points->disc, context);
 }
 
-/// The radiance that a glossy surface reflects to the viewer, but only the light that
-/// arrives straight from lamps or is in the caustics map.
+/// The radiance that a glossy surface reflects to the viewer if only two kinds of light
+/// are counted: light straight from lamps, and the light of the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,
@@ -149,7 +150,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// the ray's origin via nearly_specular() surfaces. The ray then follows these surfaces
 /// as if they were mirrors.
 /// \param world      The closed scene.
-/// \param lookup     Irradiance points, or these with a caustics map.
+/// \param lookup     Irradiance points, with or without photon maps.
 /// \param path       The ray, as it leaves a diffuse surface.
 /// \param max_depth  Largest number of surfaces on a path.
 /// \param context    The random stream of the ray; counts rays and lookups.

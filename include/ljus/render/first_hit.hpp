@@ -15,13 +15,15 @@ namespace ljus {
 
 /// The quantity that a FirstHitRenderer shows of the first surface on a primary ray.
 enum class FirstHit {
-    normals, ///< The shading normal n on the visible side, as (n + 1)/2; no hit: 1/2.
-    albedo,  ///< The directional albedo, in [0, 1]; no hit: 0.
-    depth    ///< The distance along the ray, in scene units; no hit: 0.
+    /// The shading normal n on the visible side, as the colour (n + 1)/2; 1/2 for a ray
+    /// without a hit.
+    normals,
+    albedo, ///< The directional albedo, in [0, 1]; 0 for a ray without a hit.
+    depth   ///< The distance along the ray, in scene units; 0 for a ray without a hit.
 };
 
-/// A renderer that shows the first hit of each primary ray. Thin surfaces let rays pass
-/// by chance, as in every renderer.
+/// A renderer that shows the first hit of each primary ray. Whether a ray passes a
+/// thin surface is random, as in every renderer.
 template <typename W>
 class FirstHitRenderer {
 public:
@@ -47,8 +49,8 @@ FirstHitRenderer(const W&, FirstHit) -> FirstHitRenderer<W>;
 
 /// One sample of the directional albedo of a vertex: the fraction of the light from
 /// `wo` that its material reflects and transmits in all directions. The mean of the
-/// weight of sample() is this fraction, for every material. For a Lambertian surface it
-/// has no noise.
+/// weight of sample() is this fraction, for every material. For a Lambertian surface
+/// the weight has no noise.
 /// \param world   The closed scene.
 /// \param vertex  The vertex.
 /// \param stream  Three numbers are drawn.

@@ -58,7 +58,8 @@ template <typename Mapper, std::floating_point T>
 }
 
 /// The radiance that a surface reflects to the viewer, computed from the irradiance of
-/// the nearest irradiance point on each side. It is used where an indirect ray ends.
+/// the nearest irradiance point on each side. The function is called where an
+/// indirect ray ends.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.

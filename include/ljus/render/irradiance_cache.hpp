@@ -44,8 +44,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The irradiance between the points of a cache: the mean over the points with a
-/// similar normal, weighted by 1 - d^2/r^2, where d is the distance of a point. The
-/// search radius r is the `spacing` of the nearest point.
+/// similar normal, weighted by 1 - d^2/r^2, where d is the distance of the point from
+/// the position. The search radius r is the `spacing` of the nearest point.
 /// \param cache     The points.
 /// \param position  The position to interpolate at.
 /// \param normal    Unit normal, on the side of the viewer.
@@ -80,8 +80,8 @@ template <std::floating_point T>
 
 /// The indirect irradiance at a vertex, interpolated between the points of a cache. If
 /// no point is near enough, the irradiance is gathered at the vertex itself, with a
-/// quarter of the rays. Its noise then affects one camera ray; the noise of a point of
-/// the cache affects many.
+/// quarter of the rays. The noise of this irradiance affects one camera ray; the noise
+/// at a point of the cache affects many.
 /// \param world     The closed scene.
 /// \param lookup    The data that gather rays look up.
 /// \param cache     May be empty.
@@ -116,8 +116,8 @@ struct GatheredRowT {
     Counts counts{};                   ///< Cost of the gathering.
 };
 
-/// Gathers irradiance where a camera ray meets its first diffuse surface. These places
-/// are the points of an irradiance cache \cite ward1988 . The ray follows mirrors and
+/// Gathers irradiance at the point where a camera ray meets its first diffuse surface:
+/// a point of an irradiance cache \cite ward1988 . The ray follows mirrors and
 /// is split at glass, so that one ray may give several points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
@@ -183,7 +183,7 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 ///                   with a similar normal, where k is the member `nearest`.
 /// \param threads    As in ParallelSettings; the cache does not depend on it.
 /// \throws std::invalid_argument  if a position is not finite.
-/// \cost O(n log n).
+/// \cost O(n log n) for n points.
 template <std::floating_point T>
 [[nodiscard]] IrradianceCacheT<T>
 make_irradiance_cache(const std::vector<Vec3T<T>>& positions,

@@ -17,10 +17,10 @@ namespace ljus {
 /// Chapter: \ref ch_lamps.
 /// \{
 
-/// The places at which a picture queries the photon maps: the first and the second
-/// non-specular surface that each camera path meets. They are stored as photons. The
-/// flux of such a photon is the throughput of the path there, which is called its
-/// *importance*.
+/// The points at which a picture queries the photon maps: those on the first and the
+/// second non-specular surface that each camera path meets. The points are stored as
+/// photons. The flux of such a photon is the throughput of the path at the point, which
+/// is called the *importance* of the point.
 /// \cost 1024 paths.
 template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 [[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,
@@ -62,7 +62,7 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 
 /// Changes the settings so that a lamp whose light contributes more to the picture
 /// sends more photons. A pilot pass measures the contribution, see pilot_lights(). Each
-/// of its photons is weighted with the importance of the seen_places() around it. A
+/// pilot photon is weighted with the importance of the seen_places() around it. A
 /// lamp whose light the picture does not show, such as one in a closed cupboard, sends
 /// a tenth of the photons that it would send if the shares were proportional to power.
 /// \param world     The closed scene.
@@ -70,9 +70,9 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 /// \param settings  The settings to change; shares that they contain are kept.
 /// \param width     Width of the picture, in pixels.
 /// \param height    Height of the picture, in pixels.
-/// \return The settings with `light_shares` for both passes. They are unchanged if
-///         there are fewer than two lamps, and a pass with fewer than 800 photons per
-///         lamp is unchanged.
+/// \return The settings with `light_shares` for both passes. With fewer than
+///         two lamps, nothing is changed. The settings of a pass with fewer than 800
+///         photons per lamp are not changed.
 /// \cost A twentieth of the photons, and 1024 camera paths.
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings

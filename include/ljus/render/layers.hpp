@@ -42,7 +42,7 @@ struct PathLayer {
 
 /// Which layers a picture has.
 ///
-/// Normal and albedo are means over all rays of a pixel, which denoisers need. Each ray
+/// Normal and albedo are means over all rays of a pixel, as denoisers need. Each ray
 /// is followed to the first surface that is neither a mirror nor clear glass. Depth,
 /// position and object are not means. They belong to the first surface on one ray,
 /// through the middle of the pixel and of the lens, at the middle of the exposure.
@@ -265,7 +265,7 @@ void layer_values(const LayerSettings& which, const LayeredPixel& means, const W
 /// one term for a whole class of paths, such as "DS+L". For the layers this term counts
 /// as the shortest path of the class. A layer can therefore select light of a photon
 /// map by the surfaces on the camera path, but not by those that the photons have met.
-/// Every preset has the layers of light_path_layers().
+/// The layers of light_path_layers() can be selected with every Preset.
 /// \param renderer  A PathTracer, a PhotonMapper, or another Renderer with world().
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size, rays, seed, threads.

@@ -21,7 +21,7 @@ struct SceneNeeds {
     std::size_t diffuse = 0;  ///< Number of objects with a non-specular lobe.
     std::size_t specular = 0; ///< Number of objects with a specular lobe.
     std::size_t narrow = 0;   ///< Number of objects that are nearly_specular().
-    std::size_t lights = 0;   ///< Number of emissive objects and point lights.
+    std::size_t lights = 0;   ///< Number of lights, including emissive objects.
     std::size_t fog = 0;      ///< Number of media that scatter light.
     bool films = false;       ///< Whether a material is a thin surface.
 };
@@ -128,7 +128,7 @@ namespace detail {
     return skip;
 }
 
-/// The reason why a PhotonMapper cannot render a scene with fog with these settings.
+/// The reason why a PhotonMapper with these settings cannot render a scene with fog.
 /// \return A sentence without a full stop; empty if there is no fog, or if the mapper
 ///         can render the scene.
 template <AnyWorld W>

@@ -25,8 +25,9 @@ struct PathTracingSettings {
     MisHeuristic heuristic = MisHeuristic::balance; ///< MIS weights of light that both
                                                     ///< paths and shadow rays find.
     FogLight fog = FogLight::both; ///< How light that fog scatters is found.
-    double roulette_threshold =
-        1;                   ///< Roulette applies below this throughput; 0: never.
+    /// The survival probability is the largest channel of the throughput divided by
+    /// this number, but at most `roulette_max`; see survives().
+    double roulette_threshold = 1;
     double roulette_max = 1; ///< Largest survival probability, in (0, 1].
 };
 
@@ -110,7 +111,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [emitted]
 
-/// The radiance of the sky for a path that leaves the scene, times its MIS weights.
+/// The radiance of the sky for a path that leaves the scene, times the MIS weights of
+/// the path.
 /// \return Throughput times radiance times the weight.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> escaped(const PathTracer<W>& tracer, const PathStateT<T>& path) {
@@ -192,9 +194,9 @@ template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 ///
 /// Each diffuse surface sends a shadow ray to one light, chosen by power; the path then
 /// continues in a direction sampled by the material. A lamp that the path meets counts
-/// with its weight of multiple importance sampling. After a mirror or glass this weight
-/// is 1, because no shadow ray could find the lamp. A scattering in fog counts as a
-/// diffuse surface, also in max_depth.
+/// with the path's weight of multiple importance sampling. After a mirror or glass,
+/// this weight is 1, because no shadow ray could find the lamp. A scattering in fog
+/// counts as a diffuse surface, also in max_depth.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.

@@ -31,7 +31,7 @@ namespace ljus {
 /// | E S* L          | emission, while no diffuse surface has been met             |
 /// | E ... D L       | shadow rays, or the verdict of shadow photons               |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
-/// | E ... D ... D.. | indirect rays, or the general map where the first one ends  |
+/// | E ... D ... D.. | indirect rays, or the general map where the first ray ends  |
 ///
 /// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
 /// scatters light towards the eye along each ray of a camera path. Of this light,
@@ -187,7 +187,7 @@ blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
                  "large radius; trace more, or let rays carry it"});
 }
 
-/// Runs the photon passes: the maps that the plan asks for, and no others.
+/// Runs the photon passes for the maps that the plan asks for, and for no others.
 /// \param world     The closed scene.
 /// \param settings  Photons, seed, threads.
 /// \param run       Which passes run.
@@ -273,8 +273,8 @@ template <std::floating_point T>
                  to_text(radius), "; trace more, or choose a caustic budget\n"});
 }
 
-/// A remark about an estimate whose radius seems to be in a wrong unit. Either hardly
-/// any estimate finds a photon, or every estimate finds all photons.
+/// A remark about estimates whose radius seems to be in a wrong unit: hardly any
+/// estimate finds a photon, or every estimate finds all photons.
 /// \return A line with a line feed; empty if there is no remark.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
@@ -388,7 +388,7 @@ public:
 
     /// Takes caustics photons that were traced by other machines or read from a file.
     /// \param caustics  Photons L S+ D of this world. If the settings give a radius of
-    ///                  0, the radius is chosen from them.
+    ///                  0, the mapper chooses one from these photons.
     /// \throws std::invalid_argument  if the mapper has traced caustics photons itself,
     ///         or has computed irradiance points without them.
     void set_caustics(PhotonMapT<Scalar> caustics) {
@@ -520,8 +520,8 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 
 /// How direct light is found at a surface. If a path continues at a glossy surface, its
 /// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
-/// surfaces after the first diffuse one, one shadow ray to each light is enough, unless
-/// nearly specular surfaces count as mirrors.
+/// surfaces after the first diffuse surface, a single shadow ray to each light is
+/// enough, unless nearly specular surfaces count as mirrors.
 /// \param path  The path at the surface.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
@@ -678,9 +678,9 @@ inline constexpr int split_survival = 16;
 /// by one branch. With IndirectLight::map the general map is queried at the first
 /// diffuse surface that an indirect ray meets; with IndirectLight::photons, at the
 /// diffuse surface that the camera path meets. With split_glass a path follows both
-/// branches at glass until it meets a diffuse surface. Without it, one path in a few
-/// hundred is reflected inside a glass ball to a lamp, and makes its pixel a hundred
-/// times too bright.
+/// branches at glass until it meets a diffuse surface. Without split_glass, one path in
+/// a few hundred is reflected inside a glass ball to a lamp, and makes its pixel a
+/// hundred times too bright.
 /// \param mapper   The world, the maps, the limits.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts rays and photons, logs terms.

@@ -22,10 +22,10 @@ namespace ljus {
 enum class IndirectLight : std::uint8_t {
     rays,    ///< Indirect rays at every bounce.
     map,     ///< One indirect ray, and the general map where it ends.
-    photons, ///< Indirect photons at the surface itself, without indirect rays: little
-             ///< noise, but blurred by the radius.
+    photons, ///< Indirect photons at the surface itself, without indirect rays. The
+             ///< light has little noise, but the radius blurs it.
     gather,  ///< One gather ray, and precomputed irradiance where it ends.
-    cache,   ///< Many gather rays at few points, interpolated between them.
+    cache,   ///< Irradiance, gathered by many rays at few points and interpolated.
     none     ///< No indirect light: direct light and caustics only.
 };
 
@@ -70,9 +70,10 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether lights share caustics.photons by how much flux of each light arrives,
-    /// even with CausticBudget::as_seen. A pilot pass of at most a quarter of the
-    /// photons measures the flux. The setting is ignored without the ability Budgeting.
+    /// Whether a light sends more of caustics.photons if it contributes more flux to
+    /// the caustics map, even with CausticBudget::as_seen. A pilot pass of at most a
+    /// quarter of the photons measures the flux. The setting is ignored without the
+    /// ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
@@ -84,7 +85,8 @@ struct PhotonMappingSettings {
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
-    BeamEstimateSettings fog_estimate{};  ///< How photons in fog are estimated.
+    BeamEstimateSettings
+        fog_estimate{}; ///< How radiance is estimated from photons in fog.
     IrradiancePointSettings irradiance{}; ///< How the points that gather rays look up
                                           ///< are made.
     GatherSettings gather{};              ///< How the irradiance cache is made.
@@ -134,7 +136,7 @@ struct PhotonMappingSettings {
 
 namespace detail {
 
-/// The estimate of lone photons, with a larger radius.
+/// The settings of the estimate with lone photons, which has a larger radius.
 [[nodiscard]] inline DensityEstimateSettings
 lone_estimate(const PhotonMappingSettings& settings) noexcept {
     DensityEstimateSettings wide = settings.caustics_estimate;
@@ -160,7 +162,7 @@ enum class Preset : std::uint8_t {
 /// \param preset  The preset.
 /// \param width   Width of the picture, in pixels.
 /// \param height  Height of the picture, in pixels.
-/// \return All settings; only seeds and threads have their defaults.
+/// \return All settings; seeds and threads have their defaults.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {
     const long long pixels = static_cast<long long>(width) * height;
@@ -204,8 +206,8 @@ struct PresetRays {
     int first = 1; ///< Number of first rays of every pixel.
     int more = 0;  ///< Largest number of further rays of a pixel.
     /// If the relative standard deviation of the first rays around a pixel is at least
-    /// this, the pixel gets all `more` rays. If it is smaller, the pixel gets a part of
-    /// them, in proportion.
+    /// this number, the pixel gets all `more` rays. If it is smaller, the number of
+    /// further rays is proportional to it.
     double disagreement = 1.2;
 };
 

@@ -28,7 +28,7 @@ namespace ljus {
 /// \f$ r_i \f$, with \f$ r_{i+1}^2 = r_i^2\,(i + \alpha)/(i + 1) \f$. After n passes
 /// the variance of the mean is proportional to \f$ n^{-\alpha} \f$, and the squared
 /// bias of the mean to \f$ n^{-2(1-\alpha)} \f$.
-/// \param passes  n, at least 1.
+/// \param passes  The number n of passes, at least 1.
 /// \param pass    Called with i and \f$ r_i / r_1 \f$; see \ref progressive.
 /// \param alpha   In (0, 1]; with 1 the radius is constant.
 /// \return The mean of the passes, summed in double.
@@ -111,8 +111,9 @@ struct ProgressiveState {
     long long passes = 0;           ///< Number of passes in the sums.
     std::uint64_t first_pass = 0;   ///< Hash of the first pass's picture.
     ImageT<double> sum{};           ///< Sum of the passes, in W/(m^2 sr).
-    ImageT<double> squares{};       ///< Sum of squared deviations from the mean.
-    ImageT<double> block_squares{}; ///< The same sum for the means of blocks.
+    ImageT<double> squares{};       ///< Sum of the squared deviations of the
+                                    ///< passes from their mean.
+    ImageT<double> block_squares{}; ///< The same as `squares`, for block means.
     /// A description of the picture in the program's own words. A checkpoint keeps the
     /// description, and a program that resumes compares it with its own.
     std::string picture{};
@@ -137,7 +138,8 @@ struct ProgressiveError {
 /// \param state  The earlier passes.
 /// \param image  The picture of the pass; every channel is finite.
 /// \throws std::invalid_argument  if alpha is not in (0, 1], the side of blocks is
-///         below 1, or the picture differs in size from the first or contains a NaN.
+///         below 1, the picture differs in size from the first, or a channel is not
+///         finite.
 // [add_pass]
 template <std::floating_point T>
 void add_pass(ProgressiveState& state, const ImageT<T>& image) {
@@ -175,8 +177,8 @@ template <std::floating_point T = float>
     return mean;
 }
 
-/// The noise of the picture so far, without its bias; see ProgressiveError.
-/// \return Standard errors in W/(m^2 sr); infinity for fewer than two passes.
+/// The noise of the picture so far, in which bias is not counted; see ProgressiveError.
+/// \return Standard errors, in W/(m^2 sr); infinity for fewer than two passes.
 [[nodiscard]] inline ProgressiveError estimate_error(const ProgressiveState& state) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (state.passes < 2) return {unknown, unknown};
@@ -208,10 +210,10 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 // [run]
 
 /// Checks that the passes so far belong to the picture that is to be continued. The
-/// first pass is rendered again, and all bits are compared. They depend on the world,
-/// camera, settings, seed, program and machine.
+/// first pass is rendered again, and all bits are compared. The bits depend on the
+/// world, camera, settings, seed, program and machine.
 /// \param state  The state of a checkpoint.
-/// \param pass   The pass that will continue.
+/// \param pass   The function that will render further passes; see \ref progressive.
 /// \throws std::invalid_argument  if the first pass differs.
 /// \cost One pass.
 template <typename RenderPass>
@@ -259,7 +261,7 @@ settings_for_passes(const W& world, const PhotonMappingSettings& settings,
 /// With k nearest photons the bias does not decrease until the shrinking radius is
 /// smaller than the distance to the k-th photon. Automatic radii and shares are chosen
 /// once, by settings_for_passes(). Each pass has its own irradiance cache, but
-/// interpolation blurs it by the same amount in every pass.
+/// interpolation blurs the light by the same amount in every pass.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  Photons *of one pass*, and the radii of the first pass, above 0.

@@ -163,8 +163,8 @@ struct PixelRegion {
 /// Renders a part of a picture by several threads, for example one caustic of a large
 /// picture.
 ///
-/// The random numbers of a ray depend only on its pixel's position in the whole
-/// picture. The part is therefore the same as in the picture of render(), byte for
+/// The random numbers of a ray depend on its pixel's position in the whole picture, not
+/// in the part. The part is therefore the same as in the picture of render(), byte for
 /// byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.

@@ -20,7 +20,7 @@ namespace ljus {
 /// | emission   | nothing             | the camera path hits the lamp                 |
 /// | shadow ray | a point of a light  | by a ray to the point                         |
 /// | connection | a path with a bounce| by a ray to one of its vertices               |
-/// | merging    | a path with a bounce| a vertex lies within the radius, as a photon  |
+/// | merging    | a path with a bounce| one of its vertices lies within the radius    |
 ///
 /// Light that several of these methods can find is shared among them by the balance
 /// heuristic. With radius 0 the renderer is bidirectional path tracing, which has no
@@ -122,8 +122,9 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 }
 // [shadow ray]
 
-/// The radiance that a camera path receives by a connection: a shadow ray from its
-/// vertex to a vertex of a light path. The weight among all strategies is included.
+/// The radiance that a camera path receives by a connection, times its MIS weight. A
+/// connection is a shadow ray from the vertex of the camera path to a vertex of a light
+/// path.
 // [connection]
 template <AnyWorld W, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> connect(const VertexMerger<W>& merger,
@@ -187,7 +188,7 @@ void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& c
 } // namespace detail
 
 /// The radiance that one camera path finds, with one light path for connections and all
-/// of them for merging.
+/// light paths for merging.
 /// \param merger   World and light paths.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays, logs its terms.

@@ -58,8 +58,8 @@ WhittedTracer(const W&, const WhittedSettings& = {}) -> WhittedTracer<W>;
 
 namespace detail {
 
-/// Adds the light that a diffuse surface reflects: by one shadow ray to each light that
-/// it faces, and the ambient light without a shadow ray.
+/// Adds the light that a diffuse surface reflects: that of each light, by one shadow
+/// ray, and the ambient light, without a shadow ray.
 /// \param counts    Counts the shadow rays.
 /// \param add       Called as add(owner, letters, radiance).
 /// \report{Section 2.1}

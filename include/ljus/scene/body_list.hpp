@@ -52,10 +52,10 @@ struct BodyList {
 /// The transparent materials of a scene in ascending order of priority. Materials of
 /// the same priority are ordered by index of refraction, then by absorption.
 struct BodyRanks {
-    /// The materials; that of rank r has the index r - 1.
+    /// The materials. The material of rank r has the index r - 1.
     std::vector<MaterialId> materials{};
     std::vector<std::vector<std::uint8_t>>
-        ranks{};              ///< The rank by a material's type and index; 0 if opaque.
+        ranks{}; ///< The rank of each material, by type and index; 0 if opaque.
     bool prioritized = false; ///< Whether any material has a priority other than 0.
 };
 

@@ -57,7 +57,7 @@ struct CylinderT;
 enum class ContactKind : std::uint8_t {
     lamp,   ///< A surface that emits.
     opaque, ///< An opaque surface.
-    body,   ///< The boundary of a transparent body: refractive_index(), or a medium.
+    body,   ///< The boundary of a transparent body.
     sheet   ///< A thin surface.
 };
 
@@ -82,15 +82,17 @@ struct Contact {
         next{};             ///< The next contact of each object, in Contacts::pairs.
     BoxT<double> box{};     ///< A box around the shared place.
     bool over_area = false; ///< Whether the objects share an area, not only points.
-    bool alike = false;     ///< Whether the outsides of both are on the same side.
-    bool opposed = false;   ///< Whether the outsides of both are on opposite sides.
+    /// Whether the outsides of the two objects are on the same side of a shared area.
+    bool alike = false;
+    /// Whether the outsides of the two objects are on opposite sides of a shared area.
+    bool opposed = false;
 };
 
-/// An object that shares a place with others.
+/// An object that has contacts.
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
     ContactKind kind = ContactKind::opaque; ///< The kind of the object's surface.
-    /// The key; of several surfaces, a path meets that with the smallest key.
+    /// The key. Of several surfaces, a path meets the surface with the smallest key.
     ContactKey key{};
     std::uint32_t contact = no_contact; ///< The object's first contact.
 };
@@ -106,7 +108,7 @@ struct Contacts {
     /// The position in `objects` of each object of the scene, or no_contact.
     std::vector<std::uint32_t> position{};
 
-    /// The entry of an object; null if it touches none.
+    /// The entry of an object; null if the object has no contacts.
     [[nodiscard]] const TouchingObject* find(ObjectId id) const noexcept {
         if (objects.empty()) return nullptr;
         const std::uint32_t at = position[first[id.type] + id.index];

@@ -41,8 +41,8 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray from a point of the lens. In the plane of focus it meets the ray
-/// through the pinhole.
+/// The primary ray from a point of the lens. It meets the ray through the pinhole in
+/// the plane of focus.
 /// \param camera  The camera.
 /// \param pixel   Position in pixels from the upper left corner: x in [0, width], y in
 ///                [0, height].

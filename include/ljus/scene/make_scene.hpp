@@ -99,8 +99,8 @@ concept ScenePart = requires {
     typename PartOf<Part>::Shape;
 };
 
-/// An argument with a shape. A scene needs at least one, which determines its
-/// precision.
+/// An argument with a shape. The shapes determine the precision of a scene, which
+/// therefore needs at least one.
 template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;

@@ -35,9 +35,9 @@ namespace ljus {
 /// The boundary that a path crosses if it passes through a surface.
 template <std::floating_point T>
 struct CrossingT {
-    SceneHitT<T> hit{}; ///< The surface, chosen from all surfaces in the place.
+    SceneHitT<T> hit{}; ///< The surface, chosen from all coinciding surfaces.
     BodyList before{};  ///< The bodies before the surface.
-    /// The bodies behind the surface; unchanged if it is opaque or thin.
+    /// The bodies behind the surface; for an opaque or thin surface, equal to `before`.
     BodyList behind{};
     bool hidden = false;  ///< Whether the surface is ignored.
     bool entered = false; ///< Whether the surface belongs to the body behind it.
@@ -144,7 +144,7 @@ template <AnyWorld W, std::floating_point T>
 
 /// The bodies around the start of a path, by bodies_around(). In a scene without
 /// priorities the list is empty.
-/// \cost A comparison outside the bounding box of all bodies.
+/// \cost One comparison for a point outside the bounding box of all bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_at(const W& world, const RayT<T>& ray) {
     if constexpr (W::lists_priorities)

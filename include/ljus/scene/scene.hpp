@@ -315,7 +315,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         std::get<std::vector<X>>(media).push_back(medium);
     }
 
-    /// Reports an unlisted type at compile time.
+    /// Tells the user at compile time that a type is not listed.
     template <typename X>
     requires(!lists<X> && !std::is_same_v<X, Prototype>) MaterialId add(const X&) {
         constexpr bool light = LightSource<X>, medium = Medium<X>;
@@ -325,8 +325,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                       "Neither a light nor listed: Scene<..., Materials<...>>.");
         return {};
     }
-    /// Reports, at compile time, an unlisted shape, or a material in place of its
-    /// number.
+    /// Tells the user at compile time that a shape is not listed, or that a material is
+    /// passed instead of its number.
     template <typename G, typename Made>
     ObjectId add(const G&, const Made&, RgbT<Scalar> = {}, bool = false) {
         static_assert(lists<G>, "List the shape: Scene<Shapes<...>, ...>.");

@@ -167,7 +167,8 @@ namespace detail {
 template <std::floating_point T>
 struct KeptPicturesT {
     std::vector<PictureLightT<T>> lights{}; ///< The lamps.
-    /// For each lamp of the scene, its index in `lights`; no_light without a picture.
+    /// For each lamp of the scene, its index in `lights`; no_light for a lamp without a
+    /// picture.
     std::vector<std::uint32_t> shown{};
 };
 
@@ -199,8 +200,7 @@ class World {
 
 public:
     using Scalar = typename S::Scalar; ///< The precision, from the shapes' types.
-    /// The type of the tree: the wide tree for float, the plain tree for other
-    /// precisions.
+    /// The type of the tree: Bvh8 for float, BvhT for other precisions.
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
     /// Closes a scene.
@@ -772,7 +772,8 @@ struct PlaceHitT {
     SceneHitT<T> met{};           ///< The surface that counts; see \ref contacts.
     MaterialId left = no_body;    ///< The material of a body that ends at the hit.
     MaterialId entered = no_body; ///< The material of a body that begins at the hit.
-    T depth = T(0); ///< The largest distance of the other surfaces, in scene units.
+    /// Distance of the farthest coinciding surface from the hit, in scene units.
+    T depth = T(0);
 };
 
 namespace detail {
@@ -796,8 +797,8 @@ template <typename S, typename Compute, std::floating_point T>
 /// \param hit    A hit of the ray. f is called with this hit first.
 /// \param here   The object of the hit.
 /// \param f      The function.
-/// \return The largest distance of the other surfaces, in scene units; nothing if there
-///         are no other surfaces.
+/// \return Distance of the farthest other surface from the hit, along the normal, in
+///         scene units; nothing if there are no other surfaces.
 template <typename S, typename Compute, std::floating_point T, typename F>
 [[nodiscard]] std::optional<T> visit_place(const World<S, Compute>& world,
                                            const RayT<T>& ray, const SceneHitT<T>& hit,
@@ -847,8 +848,8 @@ template <typename S, typename Compute, std::floating_point T, typename F>
 /// \param world  The closed scene.
 /// \param ray    The ray, with a direction of any length.
 /// \param hit    A hit of the ray.
-/// \return The surface that counts. If no other surface coincides with the one that was
-///         hit, it is the hit itself, without bodies.
+/// \return The surface that counts. If no other surface coincides with the surface of
+///         the hit, this is the hit itself, without bodies.
 /// \cost One intersection for each object that may have a coinciding surface.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>

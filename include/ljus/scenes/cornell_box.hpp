@@ -79,8 +79,8 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), cornell_camera<T>()};
 }
 
-/// The Cornell box with two matt balls. All surfaces are diffuse, so that every
-/// renderer of the book could compute all of the box's light.
+/// The Cornell box with two matt balls. All surfaces are diffuse, as radiosity
+/// assumes.
 // [matt_cornell_box]
 template <std::floating_point T = float>
 [[nodiscard]] Room<CornellSceneT<T>> matt_cornell_box() {

@@ -11,7 +11,7 @@ namespace ljus {
 
 /// \defgroup furnaces Furnaces
 /// \brief A furnace is a closed room whose walls all have the same emission L and
-/// albedo a. In every place and direction the radiance is
+/// albedo a. At every point and in every direction the radiance is
 ///
 /// \f[ L + aL + a^2L + \dots = \frac{L}{1 - a}. \f]
 ///

@@ -39,7 +39,7 @@ struct BatchOf<R> {
 };
 
 /// The sums over the samples of a pixel. They are in double, because a sum of 100 000
-/// samples in float would lose the last ones.
+/// samples in float would keep only two digits of the next sample.
 struct PixelSums {
     RgbT<double> sum{0};     ///< Sum of radiance.
     RgbT<double> squares{0}; ///< Sum of squared radiance.
