@@ -189,10 +189,7 @@ enum class Preset : std::uint8_t {
     settings.caustics.photons = photons / (draft ? 2 : 1);
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
-    if (!draft) { // 36 gather rays are averaged
-        settings.irradiance.shadow_rays = 2;
-        settings.irradiance.every = 8;
-    }
+    if (!draft) settings.irradiance.shadow_rays = 2; // 36 gather rays are averaged
     // The disc of an estimate then covers at most 1/32 of the surfaces with indirect
     // light.
     settings.irradiance.least = 32 * int(settings.irradiance.nearest);
