@@ -40,13 +40,14 @@ struct Fog {
     Region region{}; ///< The space that the fog fills, in scene units.
     RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
     RgbT<Scalar> scattering{Scalar(0)}; ///< Coefficient sigma_s, per scene unit.
-    Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().
+    /// Mean cosine of the angle of scattering; see henyey_greenstein().
+    Scalar g = Scalar(0);
 };
 
 /// \name Regions
 /// \{
 
-/// The part of a ray in a sphere.
+/// The interval of t in which a ray is inside a sphere.
 /// \return Nothing if the ray misses the sphere or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
@@ -64,7 +65,7 @@ template <std::floating_point T>
     return span;
 }
 
-/// The part of a ray in a box.
+/// The interval of t in which a ray is inside a box.
 /// \return Nothing if the ray misses the box or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
@@ -139,11 +140,11 @@ template <typename Region>
     return bounds_of(fog.region);
 }
 
-/// The part of a ray in the fog.
+/// The interval of t in which a ray is inside the fog.
 /// \param fog  The fog.
 /// \param ray  The ray. Its direction may have any length above 0.
-/// \return The part within [t_min, t_max] of the ray; nothing if the ray misses the
-///         fog.
+/// \return The interval, within [t_min, t_max] of the ray; nothing if the ray misses
+///         the fog.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {

@@ -33,11 +33,11 @@ namespace ljus {
 /// | sample_phase(medium, travel, u) | a direction of travel, with density phase()   |
 /// \{
 
-/// A part of a ray.
+/// An interval of the parameter t of a ray.
 template <std::floating_point T>
 struct SpanT {
     T first = T(0); ///< The smallest t, in units of the direction's length.
-    T last = T(0);  ///< The largest t, above the first.
+    T last = T(0);  ///< The largest t, above `first`.
 };
 
 /// A medium. Its functions are described at the top of this page, \ref medium.

@@ -27,7 +27,7 @@ struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
     T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
-    /// The part of the whole loss that lies at smaller cosines, from 0 to 1.
+    /// The fraction of the whole loss that lies at smaller cosines.
     std::array<T, cells + 1> below{};
     T mean = T(0); ///< 1 minus the mean of E over the hemisphere.
 };

@@ -23,8 +23,9 @@ struct PathStateT {
     /// For a camera path, the factor of the radiance that it finds; for a photon, its
     /// flux in W.
     RgbT<T> throughput{T(1)};
-    T eta_scale = T(1);        ///< The product of all BsdfSampleT::eta_scale.
-    RgbT<T> medium{T(0)};      ///< Absorption coefficient here, per scene unit.
+    T eta_scale = T(1); ///< The product of all BsdfSampleT::eta_scale.
+    /// Absorption coefficient around the current ray, per scene unit.
+    RgbT<T> medium{T(0)};
     bool medium_known = false; ///< If false, next_vertex() finds the medium.
     /// In a scene with priorities, the bodies around the path. If the list is empty,
     /// next_vertex() looks for them.
@@ -32,9 +33,10 @@ struct PathStateT {
     /// In a scene with priorities, the bodies behind the surface of the vertex.
     BodyList behind{};
     Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
-    T pdf = T(0);            ///< Density of the direction, per steradian; 0: delta.
-    /// The wavelength in nm; 0, for all wavelengths, until the path meets a Dispersive
-    /// material.
+    /// Density of the ray's direction, per steradian; 0 after a specular lobe.
+    T pdf = T(0);
+    /// The wavelength in nm. It is 0, for all wavelengths, until the path meets a
+    /// Dispersive material.
     T wavelength = T(0);
     bool specular = false;     ///< Whether the last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.

@@ -16,9 +16,9 @@ namespace ljus {
 /// \ref ch_both_ends.
 ///
 /// A path from the eye and a path from a light are the two *subpaths* of a whole path.
-/// A *strategy* is the place and the way in which they are joined: by a connection of
-/// two vertices, or by merging two vertices that are close together. The *opposite way*
-/// of a subpath is the way from its last vertex back to its first.
+/// A *strategy* says at which vertices the subpaths are joined, and how: by a
+/// connection of two vertices, or by merging two vertices that are close together. The
+/// *opposite way* of a subpath is the way from its last vertex back to its first.
 ///
 /// The functions take densities per steradian, cosines and distances. At a mirror or
 /// clear glass the density of a direction is infinite, on both ways. The two infinite
@@ -46,7 +46,8 @@ struct LightEnd {
     double area = 0;   ///< Area of the light; 0 for a light without extent.
     double pdf = 0;    ///< Density of the emitted direction, per steradian.
     double direct = 1; ///< Density of the point for a shadow ray, times the area.
-    double cosine = 0; ///< Cosine of direction and normal; 0 without a surface.
+    /// Cosine between direction and normal; 0 if the light has no surface.
+    double cosine = 0;
 };
 
 /// The weights of a light path at its start, for arrived().
@@ -64,7 +65,8 @@ struct LightEnd {
 /// \param pdf      Density of the new direction, per steradian; 0 for mirror or glass.
 /// \param back     Density of the old direction on the opposite way, per steradian.
 /// \param cosine   |cosine| of the new direction and the geometric normal. At a mirror
-///                 or glass, |cosine| of the old direction, which cancels a factor.
+///                 or glass, it is the |cosine| of the old direction instead, which
+///                 cancels the division in arrived().
 /// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
 /// \return The weights for arrived().
 // [recursion]

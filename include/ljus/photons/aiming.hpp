@@ -75,13 +75,14 @@ struct AimT {
     ConeT<T> cone{}; ///< The cone into which the point aims.
     /// Whether the point aims at the object's area instead of the cone.
     bool at_area = false;
-    T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
+    /// The weight of the choice: approximately the solid angle divided by 2 pi.
+    T size = T(0);
 };
 
 /// Chooses how a point of a light aims at an object: at the cone of directions to the
 /// object's bounding sphere or, if the object is flat, at its area. If the cone of
-/// emission is narrower (a spot light, or a lamp inside the bounding sphere), the point
-/// aims at the cone of emission instead.
+/// emission is narrower, as for a spot light or a lamp inside the bounding sphere, the
+/// point aims at the cone of emission instead.
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
 // [aim_at]
@@ -260,8 +261,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// flat object is sampled uniformly over its area instead. A distant light aims at the
 /// cross sections of the bounding spheres.
 ///
-/// The flux is multiplied by a ratio of two densities: that with which the light emits
-/// in the direction, over that with which this function samples the direction. Because
+/// The flux is multiplied by the density with which the light emits in the direction,
+/// and divided by the density with which this function samples the direction. Because
 /// cones may overlap, the caller must drop a photon that hits another object first.
 /// \param world    The closed scene.
 /// \param choice   The distribution of the lights, at least one.

@@ -18,8 +18,8 @@ struct IrradiancePointSettings {
     /// leave out these photons.
     int every = 6;
     std::size_t nearest = 32; ///< Photons per estimate, 2 to 512.
-    /// Largest radius of an estimate, in scene units; 0: four times the typical radius
-    /// of `nearest` photons.
+    /// Largest radius of an estimate, in scene units. 0 stands for four times the
+    /// typical radius of `nearest` photons.
     float radius = 0;
     int shadow_rays = 4; ///< Shadow rays per light and point; at least 1.
     /// If the map has fewer indirect photons than this, gather rays use no lookup

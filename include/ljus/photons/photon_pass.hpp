@@ -107,7 +107,8 @@ inline constexpr long long photon_block = 512;
 inline constexpr long long pilot_paths = 4 * photon_block;
 
 /// Predicts the memory of a pass and of the map made of its photons. It consists of the
-/// photons, of four numbers per photon for the tree, and of the blocks of a round.
+/// photons, of four numbers per photon for the tree, and of the blocks that are traced
+/// at a time.
 /// \param photons  The number of paths.
 /// \param mean     The number of stored photons per path so far.
 /// \return In bytes.
