@@ -59,7 +59,7 @@ template <std::floating_point T>
     return std::clamp(t, angles.span.first, angles.span.last);
 }
 
-/// The density of sample_equi_angular(), per scene unit.
+/// The density of sample_equi_angular(), per scene unit along the ray.
 template <std::floating_point T>
 [[nodiscard]] T pdf_equi_angular(const EquiAngularT<T>& angles, T t) noexcept {
     const T off = t - angles.nearest;

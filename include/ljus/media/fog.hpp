@@ -20,13 +20,14 @@ namespace ljus {
 
 namespace detail {
 
-/// The scalar type of a region, BoxT<T> or SphereT<T>. Only its return type is used.
+/// The scalar type of a region, BoxT<T> or SphereT<T>. Only the return type of this
+/// function is used.
 template <template <std::floating_point> typename Region, std::floating_point T>
 T precision_of(const Region<T>&);
 
 } // namespace detail
 
-/// Fog in a sphere or in a box. It has the same coefficients everywhere in its region.
+/// Fog in a sphere or in a box. The coefficients are the same everywhere in the region.
 /// A region that is larger than a room fills the room.
 ///
 ///     Scene<Shapes<Quad>, Materials<Lambertian>, Lights<>, Media<Fog<Box>>> scene;

@@ -32,8 +32,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
-/// fitted by seven Gaussians. The fit is within 0.03 of the table, whose values go up
-/// to 1.8.
+/// fitted by seven Gaussians. The fit is within 0.03 of the CIE's table, whose values
+/// go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.

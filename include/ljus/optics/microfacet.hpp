@@ -23,7 +23,8 @@ namespace ljus {
 namespace detail {
 
 /// The normal of the facet that reflects one direction into another. The sum of the
-/// directions is scaled before it is normalised, so that its squares do not underflow.
+/// directions is scaled before it is normalised, so that the squares of its components
+/// do not underflow.
 /// \param wo  Unit vector in the surface's frame, with z > 0.
 /// \param wi  The other unit vector, also with z > 0.
 /// \return Unit vector with z > 0.

@@ -49,8 +49,8 @@ void require_no_film_in_fog([[maybe_unused]] const W& world) {
                 "thin surfaces; remove the fog, or all soap films and thin glass.");
 }
 
-/// The points of a segment from which shadow rays find the light that fog scatters. All
-/// choices have the same mean.
+/// How to choose the points of a segment from which shadow rays find the light that fog
+/// scatters. All choices have the same mean.
 enum class FogLight : std::uint8_t {
     both,   ///< The points of both other choices, weighted by the balance heuristic.
     flight, ///< The points where fly() scatters the path.

@@ -142,7 +142,8 @@ private:
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
-/// The radiance that a camera ray receives by paths of the class, in W/(m^2 sr).
+/// The radiance that a camera ray receives by the paths of the renderer's class, in
+/// W/(m^2 sr).
 /// \cost That of the other renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,

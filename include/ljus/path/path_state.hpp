@@ -20,8 +20,8 @@ namespace ljus {
 template <std::floating_point T>
 struct PathStateT {
     RayT<T> ray{}; ///< The current ray, with the time of the path.
-    /// For a camera path, the factor of the radiance that it finds; for a photon, its
-    /// flux in W.
+    /// For a camera path, the factor by which the radiance that the path finds is
+    /// multiplied. For a photon, its flux in W.
     RgbT<T> throughput{T(1)};
     T eta_scale = T(1); ///< The product of all BsdfSampleT::eta_scale.
     /// Absorption coefficient around the current ray, per scene unit.
@@ -48,10 +48,11 @@ using PathState = PathStateT<float>; ///< PathStateT in float.
 
 /// Russian roulette on a camera path \cite arvo1990. The path survives with a
 /// probability proportional to its throughput. The throughput of a survivor is divided
-/// by this probability, so that the mean stays the same. The scaling of radiance by
-/// refraction, `eta_scale`, does not influence the probability.
-/// \param throughput       The throughput, whose largest channel counts. It is divided
-///                         by the probability if the path survives.
+/// by this probability, so that the mean radiance stays the same. The scaling of
+/// radiance by refraction, `eta_scale`, does not influence the probability.
+/// \param throughput       The throughput. Its largest channel sets the probability. If
+///                         the path survives, the throughput is divided by the
+///                         probability.
 /// \param eta_scale        PathStateT::eta_scale.
 /// \param u                In [0, 1).
 /// \param threshold        Paths with a larger throughput survive with probability

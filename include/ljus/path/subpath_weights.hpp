@@ -43,9 +43,10 @@ struct SubpathWeights {
 
 /// The densities at the end of a path on a light.
 struct LightEnd {
-    double area = 0;   ///< Area of the light; 0 for a light without extent.
-    double pdf = 0;    ///< Density of the emitted direction, per steradian.
-    double direct = 1; ///< Density of the point for a shadow ray, times the area.
+    double area = 0; ///< Area of the light; 0 for a light without extent.
+    double pdf = 0;  ///< Density of the emitted direction, per steradian.
+    /// Density with which a shadow ray would choose the point, times the area.
+    double direct = 1;
     /// Cosine between direction and normal; 0 if the light has no surface.
     double cosine = 0;
 };

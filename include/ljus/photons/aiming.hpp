@@ -172,7 +172,7 @@ struct LeavingAimedT {
 
 /// Aims a photon of a distant light at a target, uniformly over the cross section of
 /// its bounding sphere.
-/// \return Nothing if all targets have the radius 0.
+/// \return Nothing if the bounding spheres of all targets have the radius 0.
 template <AnyWorld W, FarLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -201,8 +201,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
 /// \param targets   The targets.
-/// \return Nothing if all targets have the radius 0, or if the chosen target is flat
-///         and is seen edge-on or contains `from`.
+/// \return Nothing if the bounding spheres of all targets have the radius 0, or if the
+///         chosen target is flat and is seen edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
@@ -268,8 +268,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.
 /// \param stream   Six numbers are drawn, and one more if a shape moves.
-/// \return The photon. Nothing if the light does not emit towards the target, or if all
-///         targets have the radius 0.
+/// \return The photon. Nothing if the light does not emit towards the target, or if the
+///         bounding spheres of all targets have the radius 0.
 /// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The report's program does not divide by the density of the direction, and

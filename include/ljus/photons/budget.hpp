@@ -25,8 +25,8 @@ namespace ljus {
 /// variances is then at most 1/(1 - floor) times the smallest.
 /// \param scatter  The a_k: finite and at least 0.
 /// \param floor    The fraction that is distributed evenly, in [0, 1].
-/// \return One fraction per object, at least `floor` over the number of objects; the
-///         sum is 1. Equal fractions if all a_k are 0.
+/// \return One fraction per object, at least `floor` divided by the number of objects;
+///         the sum is 1. Equal fractions if all a_k are 0.
 /// \throws std::invalid_argument  if a value is out of range.
 // [share_out]
 [[nodiscard]] inline std::vector<double> share_out(std::span<const double> scatter,
@@ -54,7 +54,7 @@ struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
-    double area = 0;        ///< Area of the caustic: flux over mean irradiance.
+    double area = 0;        ///< Area of the caustic: flux divided by mean irradiance.
     double absolute = 0;    ///< Scatter of the irradiance, in W.
     /// Scatter relative to the caustic's mean irradiance, in squared scene units.
     double relative = 0;
@@ -162,8 +162,8 @@ struct PilotLightT {
 /// where \f$ x_i \f$ is its position. The scatter a_k of object k, from a pilot of n
 /// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
 /// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
-/// caustic. For `visible` E is the irradiance of all light plus a constant, which
-/// limits the weight of dark places: a tenth of the mean irradiance.
+/// caustic. For `visible` E is the irradiance of all light plus a tenth of the mean
+/// irradiance, which limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                the photons of that pass, 500 to 20 000 per object.

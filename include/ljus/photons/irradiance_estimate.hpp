@@ -44,8 +44,9 @@ struct DensityEstimateOf {
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
     /// Half the height of the disc, divided by the radius of the disc. A small value
-    /// excludes photons of parallel walls. On a ball whose radius is at least that of
-    /// the disc, 0.5 is enough to contain the surface within the radius.
+    /// excludes photons of parallel walls. A value of 0.5 is enough for a ball that is
+    /// at least as large as the disc: the disc then contains the surface of the ball
+    /// within the radius.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.
@@ -215,8 +216,9 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// \f[ E(x) = \frac{1}{\pi r^2} \sum_i w_i\, \Delta\Phi_i \f]
 ///
-/// where r is the radius, w_i the weight of photon i by the kernel, and \f$
-/// \Delta\Phi_i \f$ the flux of the photon. estimate_radiance() explains which photons
+/// where r is the radius, w_i the weight of photon i by the kernel, and
+/// \f$ \Delta\Phi_i \f$ the flux of the photon. estimate_radiance() explains which
+/// photons
 /// count.
 ///
 /// The function needs no scene, so that photons of another program can be used: copy

@@ -84,8 +84,9 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The irradiance on one side of a surface from the nearest photons, with
-/// Epanechnikov's kernel. It counts photons that arrived on this side, in a disc whose
-/// height is its radius. With settings.edges the sum is divided by part_on_surface().
+/// Epanechnikov's kernel. It counts photons that arrived on this side, in a disc that
+/// is as high as its radius. If settings.edges is true, the sum is divided by
+/// part_on_surface().
 /// \param world     The closed scene.
 /// \param map       The photons.
 /// \param vertex    The point of the surface.

@@ -353,9 +353,9 @@ struct SentPhotonT {
 /// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
 /// A photon that has met only mirrors and glass, L S+ D, is stored in the caustics map
-/// and not in the general map. With PhotonPassSettings::gloss_as_mirrors, a glossy
-/// surface counts as a mirror. After such a surface, the photon is stored only at
-/// surfaces with a diffuse lobe.
+/// and not in the general map. If PhotonPassSettings::gloss_as_mirrors is true, a
+/// glossy surface counts as a mirror. After such a surface, the photon is stored only
+/// at surfaces with a diffuse lobe.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
 /// \param pass    The settings of the pass.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and

@@ -26,7 +26,7 @@ enum class SkipRule : std::uint8_t {
     report,
     /// Needs at least one photon of one kind and none of the other \cite jensen1995.
     any,
-    enough ///< Needs at least photons_needed() of one kind and none of the other.
+    enough ///< Needs photons_needed() photons of one kind and none of the other.
 };
 
 /// Settings for skipping rays. `tolerance` and `risk` are used by SkipRule::enough.
@@ -37,7 +37,8 @@ struct SkipSettings {
     /// Search radius in scene units. If it is 0, it is chosen from the photons.
     float radius = 0;
     float tolerance = 0.05f; ///< Occluded fraction of a light that may be ignored.
-    float risk = 0.05f;      ///< Probability of ignoring a fraction above `tolerance`.
+    /// Probability of ignoring an occluded fraction above `tolerance`.
+    float risk = 0.05f;
 };
 
 /// Checks the settings for skipping rays.
