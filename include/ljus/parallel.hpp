@@ -28,7 +28,7 @@ namespace ljus {
 /// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// The callback of a long loop: any object with a name that can be called as
+/// The callback of a long loop: any object, but not a temporary, that can be called as
 /// `bool progress(long long done, long long total)`. The loop stops if the callback
 /// returns false.
 ///

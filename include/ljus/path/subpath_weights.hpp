@@ -181,8 +181,8 @@ template <std::floating_point T>
                    double(at.distance) * double(at.distance));
 }
 
-/// BSDF, cosines and densities at a vertex, for a direction in which the path could go
-/// on.
+/// BSDF, cosines and densities at a vertex, for a direction in which the path could
+/// continue.
 template <std::floating_point T>
 struct TurnT {
     RgbT<T> f{T(0)};   ///< The BSDF, in 1/sr; 0 if the normals disagree about the side.

@@ -218,8 +218,7 @@ template <std::floating_point T, KernelLike<T> K>
 ///
 /// where r is the radius, w_i the weight of photon i by the kernel, and
 /// \f$ \Delta\Phi_i \f$ the flux of the photon. estimate_radiance() explains which
-/// photons
-/// count.
+/// photons count.
 ///
 /// The function needs no scene, so that photons of another program can be used: copy
 /// their position, direction, flux and kind into Photon. The i-th record of the map

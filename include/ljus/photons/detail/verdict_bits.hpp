@@ -16,7 +16,7 @@
 
 namespace ljus::detail {
 
-/// A cell of the grid, with a facing of a surface.
+/// A cell of the grid, for one facing of a surface; see facing().
 struct VerdictCell {
     std::int32_t x = 0;   ///< Number of the cell along the x axis; at least 0.
     std::int32_t y = 0;   ///< Number of the cell along the y axis; at least 0.
