@@ -136,7 +136,7 @@ struct FileReader {
         return detail::number_at<Number>(bytes, position - sizeof(Number));
     }
 
-    /// Reads the next three numbers, as take() does.
+    /// Reads three numbers, each by take().
     template <typename Vector>
     [[nodiscard]] Vector take_vector() {
         Vector v;

@@ -73,9 +73,9 @@ inline std::string one_path(const std::string& path) {
 
 } // namespace detail
 
-/// A list of the files that this thread reads while the list exists. It thus collects
-/// all files of a scene, with meshes, materials and pictures. If several lists exist, a
-/// file goes into the newest list only.
+/// A list of the files that this thread reads while the list exists. While a scene is
+/// loaded, the list collects the scene file and all files of meshes, materials and
+/// pictures. If several lists exist, a file goes into the newest list only.
 class FilesRead {
 public:
     /// A file that the thread has tried to read.
@@ -118,9 +118,9 @@ private:
 /// Reads a file piece by piece. If a FilesRead exists, the file is added to its list.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
-/// \param use   Called as use(text, last) with a piece, and whether it is the last one;
-///              returns the number of bytes that it has used. The next piece begins
-///              with the other bytes.
+/// \param use   Called as use(text, last) with a piece, and whether this is the last
+///              piece. Returns the number of bytes used, from the start of the piece.
+///              The next piece begins with the unused bytes.
 /// \throws std::runtime_error  with path and reason.
 template <typename Use>
 void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {

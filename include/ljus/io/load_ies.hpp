@@ -111,8 +111,8 @@ struct IesGrid {
         for (std::size_t i = 0; i < vertical.size(); ++i)
             candela.push_back(from.candela[column * vertical.size() + i]);
     }
-    /// Appends the mirror images of all columns but the last. The mirror plane is that
-    /// of the last column.
+    /// Appends the mirror images of all columns but the last. The mirror plane goes
+    /// through the last column.
     void mirror() {
         const double plane = horizontal.back();
         for (std::size_t column = horizontal.size() - 1; column > 0; --column)

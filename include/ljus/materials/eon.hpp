@@ -57,8 +57,8 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
 /// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
-/// \ref multiple_scattering. The factor A r of the losses is cancelled, so that a
-/// roughness of 0 needs no special case.
+/// \ref multiple_scattering. The factor A r that eon_loss() leaves out cancels, so that
+/// a roughness of 0 needs no special case.
 /// \param wo, wi   Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.
@@ -79,9 +79,9 @@ template <std::floating_point T>
 
 /// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
 /// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
-/// directions to directions whose density is nearly proportional to f times the cosine.
-/// The x axis points along the azimuth of wo. The four numbers are a fit, listing 2 of
-/// \cite eon2025.
+/// directions to directions whose density is nearly proportional to the BRDF times the
+/// cosine. The x axis points along the azimuth of wo. The entries a, b, c and d are
+/// fitted, in listing 2 of \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
     T a;            ///< The entry a of M.
@@ -187,8 +187,8 @@ template <std::floating_point T>
                                 Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
-/// Samples a direction with a density nearly proportional to f times the cosine to the
-/// normal.
+/// Samples a direction with a density nearly proportional to the BRDF times the cosine
+/// to the normal.
 /// \cost About three times that of a cosine-weighted direction.
 /// \cite eon2025
 template <std::floating_point T>

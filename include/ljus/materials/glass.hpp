@@ -49,8 +49,9 @@ struct GlassBoundaryT {
     T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
 };
 
-/// Divides the light for the outgoing direction `wo`; z < 0 is inside the glass.
-/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// Divides the light for the outgoing direction `wo`. If wo.z < 0, `wo` is inside the
+/// glass.
+/// \cost Three square roots and three divisions; fewer in total internal reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,

@@ -27,7 +27,8 @@ enum class FilmColor : std::uint8_t {
 };
 
 /// A soap film in air. Its thickness falls with the height z, as in films that hang
-/// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
+/// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$, where d_0
+/// is `thickness` and h is `scale`.
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T; ///< The precision of its numbers.

@@ -100,7 +100,8 @@ emission(const Textured<Base, Texture>& m) noexcept {
 /// \}
 
 /// Checks the base and the texture.
-/// \throws std::invalid_argument naming the member.
+/// \throws std::invalid_argument if a member is not valid; the message names the
+///         member.
 template <typename Base, typename Texture>
 void check(const Textured<Base, Texture>& textured) {
     check(textured.base);

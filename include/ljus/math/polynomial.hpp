@@ -84,9 +84,10 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between a and b, where p has opposite signs. The function makes steps of
-/// Newton's method. If such a step would leave the interval, or would be more than half
-/// as long as the last step, the interval is bisected instead.
+/// The root between a and b of a polynomial p that has opposite signs at a and at b.
+/// The function makes steps of Newton's method. If such a step would leave the
+/// interval, or would be more than half as long as the last step, the interval is
+/// bisected instead.
 /// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_colors.hpp
-/// \brief Finds out whether a PNG, JPEG or BMP file declares other colours than those
-/// of sRGB.
+/// \brief Finds out whether a PNG, JPEG or BMP file declares a colour space other than
+/// sRGB.
 
 #include <array>
 #include <cmath>
