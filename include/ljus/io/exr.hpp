@@ -28,8 +28,8 @@ namespace ljus {
 
 /// \defgroup exr EXR
 /// \brief The file format of the film industry. One file can hold a picture and its
-/// layers. This header needs OpenEXR 3.1 or later. A program links OpenEXRCore, with
-/// -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
+/// layers. This header needs OpenEXR 3.1 or later. A program must link OpenEXRCore,
+/// with -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
 /// \{
 
 /// How numbers are stored in an EXR file.

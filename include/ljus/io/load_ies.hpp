@@ -17,9 +17,9 @@ namespace ljus {
 /// \brief Files of the North American standard LM-63 \cite lm63, in which makers of
 /// lamps publish measurements. Chapter: \ref ch_lamps.
 ///
-/// The versions of 1986, 1991, 1995 and 2002 are read, all types of photometry and all
-/// symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a lamp dims when
-/// its luminaire is tilted; it is read and not used.
+/// This header reads the versions of 1986, 1991, 1995 and 2002, with all types of
+/// photometry, all symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a
+/// lamp dims when its luminaire is tilted; it is read and not used.
 /// \{
 
 /// The content of an IES file.

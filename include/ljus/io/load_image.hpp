@@ -230,9 +230,9 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// Decodes a picture.
 /// \param bytes   The file.
 /// \param path    The path of the file, for messages.
-/// \param others  The number of pixels in other pictures that are kept. All pictures
-///                together are limited, because a file of four kilobytes can have
-///                thirty million pixels.
+/// \param others  The number of pixels in all pictures that the caller keeps already.
+///                All pictures together are limited, because a file of four kilobytes
+///                can have thirty million pixels.
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright

@@ -117,8 +117,8 @@ struct LoadedMeshT {
     std::vector<MeshPartT<T>> parts{}; ///< The parts, one per material, in order of
                                        ///< first use.
     MeshReport report{};               ///< The problems of the file, and counts.
-    /// The pictures of the materials that could be read, by name: colours, alpha and
-    /// normals.
+    /// The pictures of the materials, by name: colours, alpha and normals. Pictures
+    /// that cannot be read are missing.
     std::map<std::string, ImageT<T>> pictures{};
     std::vector<MeshCameraT<T>> cameras{}; ///< Cameras of a glTF file, in the order of
                                            ///< the nodes.
@@ -187,7 +187,7 @@ MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
 } // namespace detail
 
 /// Adds a material of a mesh file to a scene, as add_meshes() does.
-/// \tparam Map    The type of map in the pictures that the scene lists; void means
+/// \tparam Map    The type of map in the picture materials of the scene; void means
 ///                UvMapT.
 /// \param scene   A scene that lists Lambertian.
 /// \param is      The material.
@@ -239,7 +239,7 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
 /// for metals, MeshMetalPicture or MeshMetalDetailed. Holes and normal maps need
 /// MeshDetailed or MeshMetalDetailed. A mesh with emission is a lamp, and has no holes
 /// or normal map. Lights of the file are added if the scene lists their types.
-/// \tparam Map    The type of map in the pictures that the scene lists; void means
+/// \tparam Map    The type of map in the picture materials of the scene; void means
 ///                UvMapT.
 /// \param scene   A scene that lists Mesh and Lambertian.
 /// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().

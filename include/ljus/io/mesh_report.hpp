@@ -80,8 +80,8 @@ struct MeshContent {
 
 /// The problems of a mesh file.
 struct MeshReport {
-    /// What MeshCount::line counts: a line of a text, an element of a PLY file, or a
-    /// triangle of an STL or glTF file.
+    /// What MeshCount::line counts: lines of a text, elements of a PLY file, or
+    /// triangles of an STL or glTF file.
     const char* unit = "line";
     /// The counts, indexed by MeshTrouble.
     std::array<MeshCount, detail::mesh_troubles> counts{};

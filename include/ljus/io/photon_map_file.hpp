@@ -252,9 +252,9 @@ struct PhotonMapFileSettings {
 };
 
 /// Opens a photon map in a file. The file is mapped into memory: a search reads the
-/// pages that it needs, and the system drops pages when memory is short. Meanwhile
-/// save_photon_map() may replace the file, but no program may write into it or shorten
-/// it.
+/// pages that it needs, and the system drops pages when memory is short. While the map
+/// is open, save_photon_map() may replace the file, but no program may write into the
+/// file or shorten it.
 /// \return The map, equal to the saved one in every bit. The file stays mapped as long
 ///         as this map exists, or a map to which it is moved. A copy of the map does
 ///         not need the file.

@@ -33,10 +33,10 @@ using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The fraction of light that Fujii's second model loses at an angle, divided by A r:
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here mu is the cosine of the angle,
-/// E the fraction of light that a white surface reflects, r the roughness, k_1 the
-/// constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
+/// The loss of light of Fujii's second model,
+/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
+/// that a white surface reflects, mu the cosine of the angle to the normal, r the
+/// roughness, k_1 the constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
 /// \return At least 0, at most k_1.
 /// \cite eon2025
 // [eon loss]
@@ -57,8 +57,8 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
 /// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
-/// \ref multiple_scattering. The factor A r that eon_loss() leaves out cancels, so that
-/// a roughness of 0 needs no special case.
+/// \ref multiple_scattering. The factor A r, by which eon_loss() divides, cancels. A
+/// roughness of 0 therefore needs no special case.
 /// \param wo, wi   Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.

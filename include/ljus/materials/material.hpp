@@ -47,8 +47,8 @@ namespace ljus {
 /// \{
 
 /// A set of lobes. A *specular* lobe scatters into a single direction (a delta). All
-/// other lobes, even glossy ones, have an f and a pdf, and count as D in Heckbert's
-/// notation.
+/// other lobes, even glossy ones, have a finite BSDF and a pdf, and count as D in
+/// Heckbert's notation.
 enum class Lobes : std::uint8_t {
     none = 0,         ///< No lobe.
     diffuse = 1,      ///< Scatters into all directions.

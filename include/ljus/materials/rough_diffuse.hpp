@@ -59,7 +59,7 @@ template <std::floating_point T>
 }
 
 /// The parts of a BRDF that are due to one and to two reflections between facets. The
-/// BRDF is (single albedo + twice albedo^2)/pi.
+/// BRDF is (`single` * albedo + `twice` * albedo^2)/pi.
 template <std::floating_point T>
 struct RoughRatiosT {
     T single{}; ///< The ratio for light reflected once.

@@ -80,10 +80,10 @@ template <std::floating_point T>
     return {glass.index, T(1)};
 }
 
-/// The density with which sample() chooses the incident direction `in`. It is a product
-/// of three factors: the density of the facet h among the facets visible from `out`;
-/// the probability F of reflection or 1 - F of refraction; and the Jacobian from facets
-/// to directions, 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
+/// The density with which sample() chooses the incident direction `in`. The density of
+/// the facet h among the facets visible from `out` is multiplied by the probability of
+/// reflection or of refraction, and by the Jacobian from facets to directions. The
+/// Jacobian is 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
 /// \ref rough_glass.
 /// \param alpha    The parameter of GGX.
 /// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().

@@ -69,7 +69,7 @@ template <std::floating_point T>
 
 /// The reflectance of a film.
 /// \param film       The film.
-/// \param cos_theta  Cosine between ray and normal, of either sign.
+/// \param cos_theta  Cosine of the angle between ray and normal, of either sign.
 /// \param thickness  In nm.
 /// \return For each channel, in [0, 1].
 template <std::floating_point T>

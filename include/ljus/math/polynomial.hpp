@@ -123,11 +123,10 @@ struct RootsT {
     void add(T root) noexcept { at[count++] = root; }
 };
 
-/// All roots of a polynomial p in [0, 1].
-/// Between two neighbouring roots of its derivative, p is monotone. It has one root
-/// there if its signs at the two ends differ, and otherwise none. The roots of the
-/// derivative are found in the same way, down to degree 1 \cite yuksel2022. The leading
-/// coefficient may be tiny or 0.
+/// All roots of a polynomial p in [0, 1]. Between two neighbouring roots of its
+/// derivative, p is monotone. In this interval p has one root if its signs at the two
+/// ends differ, and otherwise none. The roots of the derivative are found in the same
+/// way, down to degree 1 \cite yuksel2022. The leading coefficient may be tiny or 0.
 /// \param p          The polynomial, with finite coefficients.
 /// \param tolerance  The error of the coefficients. An extremum of p or an end of [0,
 ///                   1] counts as a root if |p| is at most `tolerance` there.
