@@ -121,7 +121,8 @@ private:
 /// \param use   Called as use(text, last) with a piece, and whether this is the last
 ///              piece. Returns the number of bytes used, from the start of the piece.
 ///              The next piece begins with the unused bytes.
-/// \throws std::runtime_error  with path and reason.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read or is
+///         too large.
 template <typename Use>
 void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     FilesRead* const notes = FilesRead::current();
@@ -174,7 +175,8 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
 /// \param most  The largest size in bytes.
 /// \param begin The bytes with which the file must begin. They are tested before the
 ///              rest is read.
-/// \throws std::runtime_error  with path and reason.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is too
+///         large, or begins with other bytes.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
     Bytes bytes;

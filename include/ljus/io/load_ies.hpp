@@ -42,10 +42,10 @@ inline constexpr std::size_t max_ies_file = std::size_t(1) << 22;
 struct IesReader {
     std::string_view rest;   ///< The text that is not read yet.
     const std::string& file; ///< The path of the file.
-    long long line = 0;      ///< The number of the line that was taken last.
-    Words words{};           ///< The unread words of that line.
+    long long line = 0;      ///< The number of the current line.
+    Words words{};           ///< The unread words of the current line.
 
-    /// Refuses the file because of its current line.
+    /// Throws an exception that names the file and the current line.
     [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
         throw std::runtime_error(
             join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));

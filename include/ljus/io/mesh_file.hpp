@@ -67,8 +67,8 @@ struct MeshMaterial {
     glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0.
     double roughness = 0;   ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
     double index = 1.5;     ///< Index of refraction Ni, within [0.001, 1000].
-    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
-    /// for opaque.
+    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, a Tr of 1
+    /// counts as opaque.
     double dissolve = 1;
     /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. These four
     /// are not glass if Ni is 1, because some programs write them for every material.

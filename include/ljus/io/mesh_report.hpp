@@ -87,9 +87,9 @@ struct MeshReport {
     std::array<MeshCount, detail::mesh_troubles> counts{};
     /// One sentence for each further problem, for example of a material file.
     std::vector<std::string> notes{};
-    MeshContent content{}; ///< Counts of all that was read.
+    MeshContent content{}; ///< The numbers of elements in the file.
 
-    /// Adds occurrences of a problem, the first of them at this line.
+    /// Adds `count` occurrences of a problem. The first is at `line`.
     void add(MeshTrouble trouble, long long line, long long count = 1) {
         MeshCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count == 0 || line < at.line) at.line = line;

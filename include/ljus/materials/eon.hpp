@@ -35,8 +35,8 @@ namespace detail {
 
 /// The loss of light of Fujii's second model,
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
-/// that a white surface reflects, mu the cosine of the angle to the normal, r the
-/// roughness, k_1 the constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
+/// that a white surface reflects, mu the cosine of the angle to the normal, and r the
+/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
 /// \return At least 0, at most k_1.
 /// \cite eon2025
 // [eon loss]
@@ -89,7 +89,7 @@ struct EonLobeT {
     T c;            ///< The entry c of M.
     T d;            ///< The entry d of M, at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
-    T uniform;      ///< The probability of a uniform direction instead of the lobe.
+    T uniform;      ///< The probability of a uniform direction, not from the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 

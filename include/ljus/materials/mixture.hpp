@@ -41,7 +41,7 @@ struct MixtureT {
     T transparency = T(0);    ///< Transmitted fraction of entering light, in [0, 1].
     T index = T(1.5);         ///< Index of refraction inside.
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
-    T emissivity = T(0);      ///< Emitted radiance over color, in W/(m^2 sr), >= 0.
+    T emissivity = T(0);      ///< Emitted radiance / color, in W/(m^2 sr), >= 0.
     T sigma = T(0);           ///< Roughness of the matt lobe, in radians; 0: Lambert.
     RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
