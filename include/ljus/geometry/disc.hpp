@@ -96,7 +96,7 @@ template <std::floating_point T>
     return point;
 }
 
-/// The point of a disc that a ray hit, from its coordinates u and v.
+/// The point of a disc at a hit, from the hit's coordinates u and v.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const DiscT<T>& disc,
                                              const RayT<T>& /*ray*/,

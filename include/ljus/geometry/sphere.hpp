@@ -35,11 +35,11 @@ struct SphereT {
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
 
-/// The segment of a line inside a ball.
+/// The segment of a line inside a ball, in units of the direction's length.
 template <std::floating_point T>
 struct ChordT {
-    T enter = T(0); ///< The smaller root, in units of the direction's length.
-    T leave = T(0); ///< The larger root, at least `enter`.
+    T enter = T(0); ///< The t at which the line enters the ball.
+    T leave = T(0); ///< The t at which the line leaves the ball.
 };
 
 /// Both distances at which the infinite line of a ray meets a sphere.
@@ -158,7 +158,7 @@ template <std::floating_point T>
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
-/// Reports mixed precisions at compile time.
+/// A compile-time error for mixed precisions.
 template <std::floating_point T, std::floating_point Other>
 requires(!std::same_as<T, Other>) Vec3T<T> normal(const SphereT<T>&,
                                                   const Vec3T<Other>&) {
@@ -240,8 +240,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples a point of the visible side of a sphere, uniformly in solid angle. From
-/// inside, the point is uniform over the sphere's area.
+/// Samples a point of the visible side of a sphere, uniformly in solid angle. For an
+/// observer inside the sphere, samples a point uniformly over the sphere's area.
 /// \return The point and its density per steradian at the observer `from`. The density
 ///         is 0 if the observer is at the point.
 /// \cite shirley1996

@@ -24,7 +24,7 @@ template <std::floating_point T>
 struct SurfacePointT {
     Vec3T<T> position{T(0)}; ///< The position, in scene units.
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal, on the outside.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal; points outwards.
     T tilt = T(0); ///< Condition number of the plane of a flat shape; see
                    ///< detail::add_tilt(). 0 if it is not used.
 };
@@ -47,8 +47,8 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     to.tilt = from.tilt;
 }
 
-/// Adds to the error of a point on a flat shape the error with which the next
-/// intersection test sees the plane of the shape.
+/// Adds the tilt of a flat shape's plane to the error of a point on the shape. The next
+/// intersection test sees the plane tilted, because of rounding.
 ///
 /// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
 /// point lies. E_1 and E_2 are the edges, and T is the vector from a corner to the

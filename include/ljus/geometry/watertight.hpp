@@ -17,8 +17,8 @@ namespace ljus {
 /// \{
 
 /// Selects the watertight test for triangles: `intersect<Watertight>(ray, triangle)`.
-/// It can be used in place of a precision wherever a loop or a tree takes one. Spheres
-/// are then intersected in their usual precision, and quads in double.
+/// Loops and trees accept it in place of a precision. Spheres are then intersected in
+/// their usual precision, and quads in double.
 struct Watertight {};
 
 namespace detail {

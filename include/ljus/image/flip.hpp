@@ -169,9 +169,9 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
         std::copy_n(&pixel(from, x, y + row), width, &pixel(to, to_x, to_y + row));
 }
 
-/// Makes a map of two pictures tile by tile, so that intermediate results need memory
-/// for one tile only. Each tile includes a margin of eye_radius() pixels. The map is
-/// therefore the same as without tiles.
+/// Makes an error map of two pictures tile by tile, so that intermediate results need
+/// memory for one tile only. Each tile includes a margin of eye_radius() pixels. The
+/// map is therefore the same as without tiles.
 /// \param image      The picture.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        Pixels per degree of the visual field.

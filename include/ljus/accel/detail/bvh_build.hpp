@@ -320,7 +320,7 @@ template <std::floating_point T>
     return BvhBuilder<T>(boxes, settings).build();
 }
 
-/// Builds the same tree, but frees the boxes before the build.
+/// Builds the same tree. The boxes are freed before the nodes are built.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::vector<BoxT<T>>&& boxes,
                                      const BvhSettings& settings) {
