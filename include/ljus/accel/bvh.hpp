@@ -10,8 +10,9 @@
 namespace ljus {
 
 /// \defgroup bvh Bounding volumes
-/// \brief The report's discussion names such trees: "an octree, axis-aligned bounding
-/// boxes, or a binary space partition". Chapter: \ref ch_bvh.
+/// \brief Trees that spare intersection tests. The report's discussion names "an
+/// octree, axis-aligned bounding boxes, or a binary space partition". Chapter:
+/// \ref ch_bvh.
 /// \{
 
 /// The default observer of a traversal. It does nothing.

@@ -35,7 +35,8 @@ public:
             detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
             multiple);
     }
-    /// Builds the same tree. The boxes are freed before the nodes are built.
+    /// Builds the same tree as the constructor above, but frees the boxes before it
+    /// builds the nodes.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(

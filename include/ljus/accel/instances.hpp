@@ -153,7 +153,7 @@ public:
                 there(mirrors ? local.v2 : local.v3)};
     }
 
-    /// The instance displaced by a vector, for Moving.
+    /// An instance displaced by a vector, in scene units.
     [[nodiscard]] friend InstanceT translated(const InstanceT& instance,
                                               const Vec3T<T>& by) noexcept {
         InstanceT moved = instance;

@@ -38,9 +38,9 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>{disc.normal}));
 }
 
-/// Intersects a ray O + tD with a disc. The ray meets the plane of the disc at
-/// \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the disc if the point O + tD lies
-/// within R of C.
+/// Intersects a ray O + tD with a disc of centre C, normal N and radius R. The ray
+/// meets the plane of the disc at \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the
+/// disc if the point O + tD lies within R of C.
 /// \tparam Compute  The precision of the arithmetic; by default double.
 /// \param ray   The ray. Its direction may have any length except zero. Hits lie in
 ///              [t_min, t_max].

@@ -49,7 +49,8 @@ template <std::floating_point T>
 
 /// The gradient of the field in double,
 /// \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$. The sum is over the blobs for
-/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive. The gradient points inwards.
+/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive; see MetaballsT for the
+/// symbols. The gradient points inwards.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {

@@ -33,7 +33,7 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
+/// The cross product of a quad's edges, in double. Its direction is the normal, and its
 /// length is the area.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
@@ -68,7 +68,8 @@ template <typename Compute = void, std::floating_point T>
     return hit;
 }
 
-/// The unit normal of a quad, along \f$ E_1 \times E_2 \f$. The area must not be 0.
+/// The unit normal of a quad, along the cross product of the edges. The area must not
+/// be 0.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> normal(const QuadT<T>& quad) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(quad)));

@@ -86,7 +86,7 @@ concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
 };
 
-/// A plane shape, with a single normal, `normal(shape)`. Photons are aimed at points of
+/// A flat shape, with a single normal, `normal(shape)`. Photons are aimed at points of
 /// its area, because it fills little of its bounding sphere.
 template <typename S>
 concept FlatShape = Samplable<S> && requires(const S& shape) {

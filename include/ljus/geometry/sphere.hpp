@@ -44,7 +44,7 @@ struct ChordT {
 
 /// Both distances at which the infinite line of a ray meets a sphere.
 ///
-/// The line O + tD meets the sphere where
+/// The line O + tD meets the sphere of centre C and radius R where
 /// \f[ t^2\,(D \cdot D) + 2t\,D \cdot (O - C) + |O - C|^2 - R^2 = 0. \f]
 /// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
 /// the nearest point of the line. This form is accurate even for a small, distant
@@ -118,7 +118,8 @@ template <typename Compute = void, std::floating_point T>
 }
 // [intersect]
 
-/// The report's formula, term by term, for comparison.
+/// The report's formula, term by term, for comparison. The ray is O + tD, and the
+/// sphere has the centre C and the radius R.
 ///
 /// \f[ t = -\frac{u}{2} \pm \sqrt{\frac{u^2}{4} - v},\quad
 ///     u = 2\,D \cdot (O - C),\quad v = |O - C|^2 - R^2 \f]
@@ -151,8 +152,8 @@ template <typename Compute = void, std::floating_point T>
 // [as_printed]
 
 /// The outward unit normal of a sphere at a point on or near the sphere, except the
-/// centre. The vector from the centre is normalised instead of divided by R, because a
-/// computed hit is only near the sphere.
+/// centre. The vector from the centre is normalised instead of divided by the radius,
+/// because a computed hit is only near the sphere.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {

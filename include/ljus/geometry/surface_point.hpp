@@ -192,7 +192,8 @@ enum class Spanned : std::uint8_t {
     parallelogram ///< A parallelogram: u and v are in [0, 1].
 };
 
-/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
+/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule, for the ray O + tD, the
+/// corner V_1 and the edges E_1 and E_2.
 ///
 /// With \f$ T = O - V_1 \f$, \f$ P = D \times E_2 \f$ and \f$ Q = T \times E_1 \f$:
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},

@@ -37,9 +37,9 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
-/// length is twice the area. In float, the normal of a thin triangle would be
-/// inaccurate.
+/// The cross product of the two edges at a triangle's first vertex, in double. Its
+/// direction is the normal, and its length is twice the area. In float, the normal of a
+/// thin triangle would be inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};

@@ -23,8 +23,8 @@ struct Watertight {};
 
 namespace detail {
 
-/// The shear that maps a ray's direction to the z axis, after an exchange of the axes.
-/// It is the same for all triangles.
+/// The shear that maps a ray's direction D to the z axis, after an exchange of axes. It
+/// is the same for all triangles.
 template <std::floating_point T>
 struct ShearT {
     int x = 0;   ///< The axis that becomes x.

@@ -62,7 +62,8 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 ///
 /// *Trap*: the standard error is itself estimated from the same samples. It is too
 /// small where the variance is infinite, or where few samples find the light.
-/// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
+/// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2
+///         samples.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);
 }

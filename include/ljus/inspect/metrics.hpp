@@ -154,10 +154,11 @@ template <std::floating_point T>
 }
 
 /// The rel_mse() of the block means of two pictures, which measures bias. By default a
-/// block has 10 x 10 pixels. In its squared error, noise that is independent between
-/// pixels is 100 times weaker, but an error that neighbouring pixels share is as large
-/// as before. A blur that stays within blocks does not show. Narrow blocks at the right
-/// and lower edge have the weight of whole blocks; see block_means().
+/// block has 10 x 10 pixels. In the squared error of such a block, noise that is
+/// independent between pixels is 100 times weaker, but an error that neighbouring
+/// pixels share is as large as before. A blur that stays within blocks does not show.
+/// Narrow blocks at the right and lower edge have the weight of whole blocks; see
+/// block_means().
 ///
 /// *Trap*: with photon maps, neighbouring pixels share photons. Their noise therefore
 /// remains in the block means. Use several seeds and bias_variance() instead.

@@ -65,7 +65,7 @@ template <AnyWorld W, std::floating_point T, typename K>
 /// edges of the object is lost. Objects with few sampled photons count together, as one
 /// object. Estimates are assumed to use all photons within the radius. The seed is for
 /// random points in the discs.
-/// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in all.
+/// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in total.
 /// \cost Five rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,

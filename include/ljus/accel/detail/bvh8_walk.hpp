@@ -20,9 +20,11 @@ struct Bvh8Ray {
     Vec3 inverse{1};    ///< 1 over the direction, per component; always finite.
     Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
     Vec3 far_shift{0};  ///< The shift of the far planes.
-    /// For each axis, the index in Bvh8Node::plane of the plane met first.
+    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
+    /// first.
     std::array<std::size_t, 3> near{};
-    /// For each axis, the index in Bvh8Node::plane of the plane met last.
+    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
+    /// last.
     std::array<std::size_t, 3> far{};
     float length = 0; ///< The direction's largest absolute component.
     float last = 0;   ///< The largest t that is searched.
