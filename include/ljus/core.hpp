@@ -18,8 +18,8 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/camera.hpp"
 
-/// The keyword `extern` in a program, which only declares the instantiations. The macro
-/// is empty in core/core.cpp, which defines them.
+/// The keyword `extern` in a program, because the program only declares the
+/// instantiations. The macro is empty in core/core.cpp, which defines them.
 #ifndef LJUS_CORE_EXTERN
 #define LJUS_CORE_EXTERN extern
 #endif

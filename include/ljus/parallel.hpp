@@ -28,7 +28,7 @@ namespace ljus {
 /// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// The callback of a long loop: any object with a name that can be called as
+/// The callback of a long loop: any object, but not a temporary, that can be called as
 /// `bool progress(long long done, long long total)`. The loop stops if the callback
 /// returns false.
 ///
@@ -51,13 +51,14 @@ inline constexpr detail::NoProgress no_progress;
 
 /// The settings of a parallel loop.
 struct ParallelSettings {
-    int threads = 0; ///< At most max_threads_allowed; 0 stands for max_threads().
+    /// Number of threads, at most max_threads_allowed; 0 stands for max_threads().
+    int threads = 0;
     Progress progress = no_progress; ///< Called after blocks, by one thread at a time.
 };
 
-/// The number of threads that `threads = 0` stands for. It is the environment variable
-/// OMP_NUM_THREADS or, if that is not set, the number of processors, and at most
-/// max_threads_allowed. Without OpenMP it is 1.
+/// The number of threads that `threads = 0` stands for. It is the value of the
+/// environment variable OMP_NUM_THREADS or, if that is not set, the number of
+/// processors. It is at most max_threads_allowed. Without OpenMP it is 1.
 [[nodiscard]] inline int max_threads() noexcept {
 #ifdef _OPENMP
     const int most = omp_get_max_threads();
@@ -261,7 +262,7 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 /// \throws std::invalid_argument  if `options.threads` is not within [0, 1024]. If a
 ///         body or `progress` throws, no further block begins, and the loop throws the
 ///         same exception. If several blocks throw, the loop throws the exception of
-///         the lowest one.
+///         the block with the lowest number.
 /// \cost About 30 microseconds to wake the threads, more the first time, and below 0.1
 ///       microseconds per block.
 template <std::invocable<long long> Body>

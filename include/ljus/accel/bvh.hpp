@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/bvh.hpp
-/// \brief The plain tree of boxes, which spares a ray most intersection tests.
+/// \brief A binary tree of boxes, which spares a ray most intersection tests.
 
 #include <array>
 
@@ -10,8 +10,9 @@
 namespace ljus {
 
 /// \defgroup bvh Bounding volumes
-/// \brief The report's discussion: "an octree, axis-aligned bounding boxes, or a binary
-/// space partition". Chapter: \ref ch_bvh.
+/// \brief Trees that spare intersection tests. The report's discussion names "an
+/// octree, axis-aligned bounding boxes, or a binary space partition". Chapter:
+/// \ref ch_bvh.
 /// \{
 
 /// The default observer of a traversal. It does nothing.
@@ -31,8 +32,10 @@ struct NearestHitT {
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 
-    /// Accepts a hit if it is nearer than the nearest so far. The ray's t_max is then
-    /// set one ulp beyond the hit, so that a primitive at the same t is still tested.
+    /// Accepts a hit if it is nearer than the hit found so far. Of two equally near
+    /// hits, the one on the primitive with the lower index counts. The ray's t_max is
+    /// then set one ulp beyond the hit, so that a primitive at the same t is still
+    /// tested.
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
@@ -54,9 +57,8 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 /// The nearest hit among all primitives in a tree.
 /// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
 /// \param ray   The ray. Hits lie within [t_min, t_max].
-/// \param ask   Called as ask(slot, ray) for primitives that the ray may hit, with a
-///              ray that ends at the nearest hit so far. It returns an optional
-///              ShapeHitT.
+/// \param ask   Called as ask(slot, rest) for primitives that the ray may hit. `rest`
+///              is the ray up to the nearest hit so far. Returns an optional ShapeHitT.
 /// \return The same hit as a loop over all primitives.
 template <typename Tree, std::floating_point T, typename Ask>
 [[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/bvh8.hpp
-/// \brief The fast tree of boxes: eight children per node, tested together.
+/// \brief A tree of boxes with up to eight children per node, whose boxes are tested
+/// together.
 
 #include "ljus/accel/bvh.hpp"
 #include "ljus/accel/detail/bvh8_walk.hpp"
@@ -34,7 +35,8 @@ public:
             detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
             multiple);
     }
-    /// Builds the same tree, but frees the boxes before the build.
+    /// Builds the same tree as the constructor above, but frees the boxes before it
+    /// builds the nodes.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(
@@ -51,7 +53,7 @@ public:
     [[nodiscard]] const detail::GrowingArray<detail::Bvh8Node>& nodes() const noexcept {
         return wide_.nodes;
     }
-    /// The tree, for detail::walk().
+    /// The data of the tree, for detail::walk().
     [[nodiscard]] const detail::Bvh8Nodes& wide() const noexcept { return wide_; }
     /// The box around all primitives.
     [[nodiscard]] const Box& box() const noexcept { return wide_.box; }

@@ -19,7 +19,7 @@ namespace ljus {
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< Largest number of primitives per leaf; at least 1.
     std::uint32_t at_a_time = 1; ///< Number of primitives that one test covers.
-    float node_cost = 1;         ///< Cost of a traversal step, in units of one test.
+    float node_cost = 1;         ///< Cost of visiting a node, in primitive tests.
     int threads = 0;             ///< Number of threads; 0 for all processors.
 };
 
@@ -31,7 +31,7 @@ namespace detail {
 template <std::floating_point T>
 struct BvhNodeT {
     BoxT<T> box{};           ///< The box around the whole subtree.
-    std::uint32_t first = 0; ///< The first primitive, or the first of two children.
+    std::uint32_t first = 0; ///< First slot of a leaf, or first child of an inner node.
     std::uint32_t count = 0; ///< Number of primitives; 0 for an inner node.
 };
 // [tree node]

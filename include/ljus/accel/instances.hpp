@@ -25,8 +25,8 @@ namespace ljus {
 
 namespace detail {
 
-/// An upper bound, per component, of |M v|, where M is the linear part of the map and v
-/// is any vector whose components are at most those of `size` in absolute value.
+/// An upper bound on |M v|, component by component, for every vector v with
+/// |v| <= size. M is the linear part of the map.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> transform_sizes(const AffineT<T>& map,
                                        const Vec3T<T>& size) noexcept {
@@ -34,15 +34,16 @@ template <std::floating_point T>
 }
 
 /// A bound on the components of a vector that is transformed by the inverse map and
-/// then by the map, if no terms cancel. The bound times the relative rounding error of
-/// the inverse map is a bound on the error of the result.
+/// then by the map. It adds absolute values, so that no terms cancel. The bound times
+/// the relative rounding error of the inverse map bounds the error of the result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// For each triangle of a mesh, the sum of the areas in the scene up to that triangle.
+/// For each triangle of a mesh, the sum of the areas in the scene up to and including
+/// that triangle.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {
@@ -87,9 +88,9 @@ public:
     ///               the mesh remains outside.
     /// \throws std::invalid_argument  if the mesh was moved from, if the map is not
     ///         finite or has no inverse, if the map's condition number is above 1e8, or
-    ///         if the area is not above 0.
-    /// \cost O(n) for the area of n triangles, unless the map stretches all directions
-    ///       by the same factor.
+    ///         if the instance's area is not finite or not above 0.
+    /// \cost O(n) for n triangles, whose areas are summed. O(1) if the map stretches
+    ///       all directions by the same factor.
     explicit InstanceT(Ref<MeshT<T>> mesh, const AffineT<T>& place = AffineT<T>(1))
         : mesh_(mesh), place_(place) {
         check(mesh.get());
@@ -138,9 +139,9 @@ public:
     }
     /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
-    /// The triangle with the index `part` in the scene, rounded to T. If the map
-    /// mirrors, the second and the third vertex are exchanged, so that the triangle
-    /// faces outwards.
+    /// The triangle with the index `part`, transformed to the scene and rounded to T.
+    /// If the map mirrors, the second and the third vertex are exchanged, so that the
+    /// triangle faces outwards.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         const TriangleT<T> local = mesh().triangle(part);
         const AffineT<Wide> wide(place_);
@@ -152,7 +153,7 @@ public:
                 there(mirrors ? local.v2 : local.v3)};
     }
 
-    /// The instance displaced by a vector, for Moving.
+    /// An instance displaced by a vector, in scene units.
     [[nodiscard]] friend InstanceT translated(const InstanceT& instance,
                                               const Vec3T<T>& by) noexcept {
         InstanceT moved = instance;
@@ -286,8 +287,8 @@ texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept
             transform_vector(instance.place(), along_v)};
 }
 
-/// For each triangle, the sum of the areas in the scene up to that triangle. A lamp
-/// keeps these sums for sample_area().
+/// For each triangle, the sum of the areas in the scene up to and including that
+/// triangle. A lamp keeps these sums for sample_area().
 /// \return The sums. Empty if the map stretches all directions by the same factor;
 ///         sample_area() then uses the sums of the mesh.
 /// \cost O(n) time for n triangles, and 8 bytes per triangle.
@@ -347,8 +348,8 @@ template <std::floating_point T>
 }
 
 /// A box around an instance. It is the intersection of two boxes: one around the
-/// transformed box of the mesh, and one around the ellipsoid that results from the
-/// sphere of the mesh.
+/// transformed bounding box of the mesh, and one around the ellipsoid into which the
+/// map turns the bounding sphere of the mesh.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
     using Wide = Vec3T<WideT<T>>;
@@ -381,7 +382,7 @@ template <std::floating_point T>
     return {.center = Vec3T<T>(center), .radius = static_cast<T>(radius + slack)};
 }
 
-/// The mesh of an instance, which its scene keeps.
+/// The mesh of an instance. The scene keeps this mesh.
 template <std::floating_point T>
 [[nodiscard]] const MeshT<T>& prototype(const InstanceT<T>& instance) noexcept {
     return instance.mesh();

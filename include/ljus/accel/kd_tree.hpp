@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/kd_tree.hpp
-/// \brief The plain k-d tree, which finds the points near a position.
+/// \brief A k-d tree, which finds the points near a position.
 
 #include <algorithm>
 #include <limits>
@@ -47,8 +47,8 @@ public:
     /// \param points  Fewer than 2^32 points; points may be equal.
     /// \throws std::invalid_argument  if a point is not finite, or if there are too
     ///         many.
-    /// \cost O(n log n) for any n points; in float 16 bytes per point, and 3 to 12 for
-    ///       the boxes.
+    /// \cost O(n log n) for any n points. In float a point takes 16 bytes, and 3 to 12
+    ///       more for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
         require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
                 "the number of points in a k-d tree",
@@ -135,14 +135,14 @@ public:
     /// The nearest points within a closed ball.
     /// \param center  Centre of the ball.
     /// \param radius  As for visit_within().
-    /// \param found   One element per wanted point. It is filled as a heap, whose first
-    ///                element is the farthest point.
+    /// \param found   One element for each point to be found. The elements are filled
+    ///                as a heap, so that the first one is the farthest point.
     /// \param wanted  Called with an index in the tree's order. If it returns false,
     ///                the point is skipped. By default all points are wanted.
     /// \return The number of points found. Among equally near points the choice is
     ///         arbitrary, but always the same.
-    /// \cost On average O(log n) for n points, and some steps per wanted point; more if
-    ///       few of the points nearby are wanted.
+    /// \cost On average O(log n) for n points, and some steps per point to be found;
+    ///       more if `wanted` skips most of the points nearby.
     // [nearest]
     template <typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,

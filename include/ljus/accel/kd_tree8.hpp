@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/accel/kd_tree8.hpp
-/// \brief The fast k-d tree: eight children per node, eight points at a time.
+/// \brief A wide k-d tree. A node has eight children, and a search tests eight points
+/// together.
 
 #include <optional>
 
@@ -46,11 +47,11 @@ public:
 
     /// Builds the tree.
     /// \param points   Fewer than 2^32 points; points may be equal.
-    /// \param threads  As in ParallelSettings. The tree does not depend on it.
+    /// \param threads  As in ParallelSettings. The tree does not depend on this number.
     /// \throws std::invalid_argument  if a point is not finite, or if there are too
     ///         many.
-    /// \cost O(n log n) for any n points; in float 16 bytes per point, about 1 for the
-    ///       boxes, and some more during the build.
+    /// \cost O(n log n) for any n points. In float a point takes 16 bytes, about 1 more
+    ///       for the boxes, and some more during the build.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
         : KdTree8T(detail::kd_tree8_items(points), threads) {}
 
@@ -165,19 +166,19 @@ public:
         return results.best;
     }
 
-    /// The k nearest points within a closed ball.
+    /// The k nearest points within a closed ball, where k is found.size().
     /// \param center  Centre of the ball.
     /// \param radius  As for visit_blocks().
-    /// \param found   One element per wanted point. The first element is the farthest
-    ///                point, and the others are unsorted.
+    /// \param found   One element for each point to be found. The first element is the
+    ///                farthest point, and the others are unsorted.
     /// \param wanted  Called with an index in the tree's order. If it returns false,
     ///                the point is skipped. By default all points are wanted.
     /// \tparam Most  An upper bound on found.size(). If it is at most 512, less code is
     ///               compiled.
     /// \return The number of points found. Among equally near points the choice is
     ///         arbitrary, but always the same.
-    /// \cost On average O(log n) for n points, and some steps per wanted point; more if
-    ///       few of the points nearby are wanted.
+    /// \cost On average O(log n) for n points, and some steps per point to be found;
+    ///       more if `wanted` skips most of the points nearby.
     template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
               typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,

@@ -26,15 +26,15 @@ namespace ljus {
 template <std::floating_point T>
 class MeshT {
 public:
-    /// The type of the tree: the fast tree in float, otherwise the plain one.
+    /// The type of the tree: TriangleBvh in float, otherwise BvhT.
     using Tree = std::conditional_t<std::is_same_v<T, float>, TriangleBvh, BvhT<T>>;
 
     /// Builds the tree.
     /// \param data     Vertices and triangles. Triangles without an area are kept, but
     ///                 are never hit.
     /// \param threads  The number of threads that build the tree; 0 for all processors.
-    /// \throws std::invalid_argument  if check() refuses the data, or unless the area
-    ///         is finite and above 0.
+    /// \throws std::invalid_argument  if check() refuses the data, or if the total area
+    ///         is not finite or not above 0.
     /// \cost O(n log n) for n triangles.
     explicit MeshT(MeshDataT<T> data, int threads = 0) : data_(std::move(data)) {
         check(data_);
@@ -75,8 +75,8 @@ public:
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return detail::triangle_of(data_, part);
     }
-    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). The
-    /// fast tree stores its triangles, which saves two reads of distant memory.
+    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). A
+    /// TriangleBvh stores its triangles, which saves two reads of distant memory.
     [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
             return tree_.triangle(slot);
@@ -168,7 +168,7 @@ template <std::floating_point T>
 }
 
 /// The texture coordinates of a hit, interpolated between the vertices. If the mesh has
-/// no texture coordinates, they are `hit.u` and `hit.v`.
+/// none, the result is (hit.u, hit.v).
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh,
                                            const ShapeHitT<T>& hit,
@@ -180,10 +180,10 @@ template <std::floating_point T>
            hit.v * uv[corner[2]];
 }
 
-/// The directions in which the texture coordinates of a triangle grow. If the mesh has
-/// no texture coordinates, they are the edges of the triangle.
+/// The directions in which the texture coordinates of a triangle grow.
 /// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
-///         coordinates span no area.
+///         coordinates span no area. If the mesh has no texture coordinates, two edges
+///         of the triangle.
 template <std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {
@@ -209,12 +209,12 @@ namespace detail {
 template <std::floating_point T>
 struct ChosenPartT {
     std::uint32_t part = 0; ///< The index of the triangle.
-    T left = T(0);          ///< The position of u within the interval chosen.
+    T left = T(0);          ///< Where u lies in the triangle's interval, in [0, 1].
 };
 
 /// Chooses a triangle with a probability proportional to its area.
-/// \param sums  For each triangle, the sum of the areas up to that triangle. The last
-///              sum is above 0.
+/// \param sums  For each triangle, the sum of the areas up to and including that
+///              triangle. The last sum is above 0.
 /// \param u     A random number in [0, 1).
 template <std::floating_point T>
 [[nodiscard]] ChosenPartT<T> choose_part(const std::vector<double>& sums,
@@ -270,7 +270,7 @@ template <std::floating_point T>
 }
 
 /// Refuses a mesh that was moved from; the constructor refuses all other invalid data.
-/// \throws std::invalid_argument  if it has no triangle.
+/// \throws std::invalid_argument  if the mesh has no triangle.
 template <std::floating_point T>
 void check(const MeshT<T>& mesh) {
     require(mesh.size() > 0, "the number of a mesh's triangles", 0LL, "at least 1");

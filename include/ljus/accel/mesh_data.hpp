@@ -43,7 +43,7 @@ template <std::floating_point T>
 
 /// Refuses data from which no mesh can be built: a missing vertex, a number that is not
 /// finite, or lists whose lengths do not match.
-/// \throws std::invalid_argument  with the name, the index and the value.
+/// \throws std::invalid_argument  with the name of the list, the index and the value.
 template <std::floating_point T>
 void check(const MeshDataT<T>& data) {
     const auto place = [](const char* list, std::size_t i) {

@@ -84,7 +84,7 @@ template <std::floating_point T>
 /// The nearest points that a search has found so far. They form a heap in the caller's
 /// memory, with the farthest point at `found[0]`.
 struct Nearest {
-    std::span<Neighbor> found; ///< One element per wanted point; at least one.
+    std::span<Neighbor> found; ///< One element per point to be found; at least one.
     double limit2 = 0;         ///< The squared radius of the search.
     std::size_t count = 0;     ///< Number of points so far.
 

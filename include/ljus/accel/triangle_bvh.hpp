@@ -10,17 +10,18 @@
 namespace ljus {
 
 /// \defgroup triangle_bvh Trees of triangles
-/// \brief The fast tree for a mesh. Chapter: \ref ch_bvh.
+/// \brief A wide tree over the triangles of a mesh. Chapter: \ref ch_bvh.
 /// \{
 
 namespace detail {
 
 /// Up to eight triangles, stored coordinate by coordinate.
 struct alignas(64) TriangleLanes {
-    Lanes3 v1{};  ///< The first corners of the triangles.
-    Lanes3 v2{};  ///< The second corners of the triangles.
-    Lanes3 v3{};  ///< The third corners of the triangles.
-    Lanes size{}; ///< Largest absolute component of two edges; negative if unused.
+    Lanes3 v1{}; ///< The first corners of the triangles.
+    Lanes3 v2{}; ///< The second corners of the triangles.
+    Lanes3 v3{}; ///< The third corners of the triangles.
+    /// Largest absolute component of two edges; negative in an unused lane.
+    Lanes size{};
 };
 
 /// The result of the conservative filter for eight triangles, in the form of

@@ -14,7 +14,8 @@
 namespace ljus {
 
 /// \defgroup box Boxes
-/// \brief The report's discussion: "axis-aligned bounding boxes". Chapter: \ref ch_bvh.
+/// \brief The report's discussion names "axis-aligned bounding boxes". Chapter:
+/// \ref ch_bvh.
 /// \{
 
 /// An axis-aligned box, given by two opposite corners. The default box is empty.
@@ -49,10 +50,10 @@ struct BoxRayT {
 
 /// Prepares a ray for intersection with many boxes.
 ///
-/// A tree must find every hit that the test of the shape itself finds. The rounding
-/// errors of both tests are proportional to the distance of the boxes from the ray's
-/// origin. Each box is therefore enlarged by 16 units of roundoff of that distance. The
-/// test of a box alone needs 3 units \cite ize2013.
+/// A tree must find every hit that the test of a shape finds. The rounding errors of
+/// the shape's test and of the box's test are proportional to the distance of the boxes
+/// from the ray's origin. Each box is therefore enlarged by this distance times 16
+/// units of roundoff. The test of a box alone needs 3 units \cite ize2013.
 /// \param ray  The ray. Its direction may have any length except zero. Its range is
 ///             ignored.
 /// \param all  A box around all boxes to be tested.

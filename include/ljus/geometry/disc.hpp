@@ -38,9 +38,9 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>{disc.normal}));
 }
 
-/// Intersects a ray O + tD with a disc. The ray meets the plane of the disc at
-/// \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the disc if the point O + tD lies
-/// within R of C.
+/// Intersects a ray O + tD with a disc of centre C, normal N and radius R. The ray
+/// meets the plane of the disc at \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the
+/// disc if the point O + tD lies within R of C.
 /// \tparam Compute  The precision of the arithmetic; by default double.
 /// \param ray   The ray. Its direction may have any length except zero. Hits lie in
 ///              [t_min, t_max].
@@ -96,7 +96,7 @@ template <std::floating_point T>
     return point;
 }
 
-/// The point of a disc that a ray hit, from its coordinates u and v.
+/// The point of a disc at a hit, from the hit's coordinates u and v.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const DiscT<T>& disc,
                                              const RayT<T>& /*ray*/,

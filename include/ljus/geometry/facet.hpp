@@ -55,8 +55,8 @@ namespace detail {
 /// \param point   A point of the plane.
 /// \param normal  Unit normal of the plane, towards the side that is kept.
 /// \param width   Corners within this distance of the plane count as on the plane.
-/// \return The part of the facet in front of the plane, with at most one corner more;
-///         no corners if nothing is left.
+/// \return The part of the facet in front of the plane, which has at most one corner
+///         more than the facet. No corners if nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {

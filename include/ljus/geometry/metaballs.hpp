@@ -49,7 +49,8 @@ template <std::floating_point T>
 
 /// The gradient of the field in double,
 /// \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$. The sum is over the blobs for
-/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive. The gradient points inwards.
+/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive; see MetaballsT for the
+/// symbols. The gradient points inwards.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -84,7 +85,8 @@ template <std::floating_point T>
 ///         infinity, or a zero direction. A point with f >= 0 is inside.
 /// \cost A square root and a division per blob. A ray that meets n blobs has at most 3
 ///       n - 1 spans, which end where the ray enters, leaves or is nearest to a blob. A
-///       span costs n additions and mostly 0 or 1 root; at most 10 roots of 106 steps.
+///       span costs n additions, and mostly no root or one. At worst it costs 10 roots
+///       of 106 steps each.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
@@ -116,8 +118,8 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>
 namespace detail {
 
 /// The radius within which the field of a blob is at least `share`.
-/// \return R sqrt(1 - sqrt(share / w)) for the blob's radius R and weight w, which is
-///         above 0; negative if the field is below `share` everywhere.
+/// \return R sqrt(1 - sqrt(share / w)) for the blob's radius R and its weight w > 0. A
+///         negative number if the field is below `share` everywhere.
 template <std::floating_point T>
 [[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {
     const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));

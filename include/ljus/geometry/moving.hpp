@@ -51,7 +51,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// A shape that does not move, at any time: the shape itself.
+/// A shape that does not move is the same at every time: returns the shape itself.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {

@@ -93,8 +93,8 @@ template <std::floating_point T>
                     glm::dvec3(placement.translate));
 }
 
-/// The unit normal of a surface after scaling and rotation. Each component is divided
-/// by the factor of the scale before the rotation.
+/// The unit normal of a surface after scaling and rotation. Before the rotation, each
+/// component is divided by the scaling factor of its axis.
 /// \param normal     The normal before scaling and rotation, of any length except 0.
 /// \param placement  The placement of the surface.
 template <std::floating_point T>

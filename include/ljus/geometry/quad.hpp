@@ -18,8 +18,8 @@ namespace ljus {
 
 /// \defgroup quad Quads
 /// \brief Section 3.1.5: the intersection test of triangles, with other bounds for u
-/// and v. One test replaces the tests of two triangles, and no ray can pass through a
-/// diagonal.
+/// and v. One test replaces the tests of two triangles, and there is no diagonal
+/// between them through which a ray could pass.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
@@ -33,7 +33,7 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
+/// The cross product of a quad's edges, in double. Its direction is the normal, and its
 /// length is the area.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
@@ -68,7 +68,8 @@ template <typename Compute = void, std::floating_point T>
     return hit;
 }
 
-/// The unit normal of a quad with an area, along \f$ E_1 \times E_2 \f$.
+/// The unit normal of a quad, along the cross product of the edges. The area must not
+/// be 0.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<T> normal(const QuadT<T>& quad) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(quad)));
@@ -121,7 +122,7 @@ template <std::floating_point T>
     return sample_area(quad, u, normal(quad));
 }
 
-/// The point of a quad that a ray hit, from its coordinates u and v.
+/// The point of a quad at a hit, from the hit's coordinates u and v.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const QuadT<T>& quad,
                                              const RayT<T>& /*ray*/,

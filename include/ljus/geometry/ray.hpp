@@ -56,7 +56,7 @@ struct ShapeHitT {
 /// \name Diagnostics
 /// \{
 
-/// Reports swapped arguments and mixed precisions at compile time.
+/// A compile-time error for swapped arguments and for mixed precisions.
 template <std::floating_point T, typename Other>
 requires(!std::same_as<T, Other>) Vec3T<T> point_at(const RayT<T>&, Other) {
     static_assert(sizeof(Other) == 0, "A ray of floats takes a float: 2.0f, not 2.");
@@ -77,8 +77,8 @@ requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
 /// \}
 
 /// \name Preparation for many shapes
-/// A template argument, a precision or the name of a test, selects the intersection
-/// test for all shapes of a loop.
+/// A template argument selects the intersection test for all shapes of a loop. The
+/// argument is a precision or the name of a test.
 ///
 ///     const auto prepared = prepare<Test>(ray);
 ///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);

@@ -63,7 +63,7 @@ concept Shape = HasBoundingSphere<S> &&
     check(shape);
 };
 
-/// Whether the area of a shape is known. A shape without an area, such as metaballs,
+/// Whether a shape has the function area(). A shape without area(), such as metaballs,
 /// cannot be a light.
 template <typename S>
 concept HasArea = requires(const S& shape) {
@@ -86,7 +86,7 @@ concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
 };
 
-/// A plane shape, with a single normal, `normal(shape)`. Photons are aimed at points of
+/// A flat shape, with a single normal, `normal(shape)`. Photons are aimed at points of
 /// its area, because it fills little of its bounding sphere.
 template <typename S>
 concept FlatShape = Samplable<S> && requires(const S& shape) {
@@ -110,7 +110,7 @@ inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) 
 /// A shape's own function of the same name takes precedence.
 /// \{
 
-/// Lets the code for lights compile for a shape without an area. A scene refuses such a
+/// Lets the code for lights compile for a shape without area(). A scene refuses such a
 /// light, so that this function is never called.
 template <Shape S>
 requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
@@ -120,7 +120,7 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
 
 /// Samples a point of any shape, uniformly over its area.
 /// \return The point and its density per steradian at the observer `from`. The density
-///         is 0 for a shape without an area, and if the observer is at the point.
+///         is 0 for a shape without area(), and if the observer is at the point.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
@@ -132,7 +132,7 @@ template <Shape S, std::floating_point T>
 }
 
 /// The density of sample_towards() at a point of the shape, per steradian at `from`. It
-/// is 0 for a shape without an area.
+/// is 0 for a shape without area().
 template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {

@@ -27,8 +27,8 @@ struct SeenPointT {
 
 namespace detail {
 
-/// Converts the density of a point that is uniform over an area to the density per
-/// steradian at the observer `from`.
+/// The density per steradian, at the observer `from`, of a point that is sampled
+/// uniformly over an area.
 /// \return distance^2 / (|cos| area), with the cosine between the point's normal and
 ///         the direction of the observer. Infinity if the surface is seen edge-on; 0 if
 ///         the observer is at the point.

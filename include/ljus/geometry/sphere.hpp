@@ -35,16 +35,16 @@ struct SphereT {
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
 
-/// The segment of a line inside a ball.
+/// The segment of a line inside a ball, in units of the direction's length.
 template <std::floating_point T>
 struct ChordT {
-    T enter = T(0); ///< The smaller root, in units of the direction's length.
-    T leave = T(0); ///< The larger root, at least `enter`.
+    T enter = T(0); ///< The t at which the line enters the ball.
+    T leave = T(0); ///< The t at which the line leaves the ball.
 };
 
 /// Both distances at which the infinite line of a ray meets a sphere.
 ///
-/// The line O + tD meets the sphere where
+/// The line O + tD meets the sphere of centre C and radius R where
 /// \f[ t^2\,(D \cdot D) + 2t\,D \cdot (O - C) + |O - C|^2 - R^2 = 0. \f]
 /// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
 /// the nearest point of the line. This form is accurate even for a small, distant
@@ -118,7 +118,8 @@ template <typename Compute = void, std::floating_point T>
 }
 // [intersect]
 
-/// The report's formula, term by term, for comparison.
+/// The report's formula, term by term, for comparison. The ray is O + tD, and the
+/// sphere has the centre C and the radius R.
 ///
 /// \f[ t = -\frac{u}{2} \pm \sqrt{\frac{u^2}{4} - v},\quad
 ///     u = 2\,D \cdot (O - C),\quad v = |O - C|^2 - R^2 \f]
@@ -151,14 +152,14 @@ template <typename Compute = void, std::floating_point T>
 // [as_printed]
 
 /// The outward unit normal of a sphere at a point on or near the sphere, except the
-/// centre. The vector from the centre is normalised instead of divided by R, because a
-/// computed hit is only near the sphere.
+/// centre. The vector from the centre is normalised instead of divided by the radius,
+/// because a computed hit is only near the sphere.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
     return glm::normalize(point - sphere.center);
 }
-/// Reports mixed precisions at compile time.
+/// A compile-time error for mixed precisions.
 template <std::floating_point T, std::floating_point Other>
 requires(!std::same_as<T, Other>) Vec3T<T> normal(const SphereT<T>&,
                                                   const Vec3T<Other>&) {
@@ -240,8 +241,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples a point of the visible side of a sphere, uniformly in solid angle. From
-/// inside, the point is uniform over the sphere's area.
+/// Samples a point of the visible side of a sphere, uniformly in solid angle. For an
+/// observer inside the sphere, samples a point uniformly over the sphere's area.
 /// \return The point and its density per steradian at the observer `from`. The density
 ///         is 0 if the observer is at the point.
 /// \cite shirley1996

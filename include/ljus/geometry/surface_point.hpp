@@ -24,7 +24,7 @@ template <std::floating_point T>
 struct SurfacePointT {
     Vec3T<T> position{T(0)}; ///< The position, in scene units.
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
-    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal, on the outside.
+    Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal; points outwards.
     T tilt = T(0); ///< Condition number of the plane of a flat shape; see
                    ///< detail::add_tilt(). 0 if it is not used.
 };
@@ -47,8 +47,8 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     to.tilt = from.tilt;
 }
 
-/// Adds to the error of a point on a flat shape the error with which the next
-/// intersection test sees the plane of the shape.
+/// Adds the tilt of a flat shape's plane to the error of a point on the shape. The next
+/// intersection test sees the plane tilted, because of rounding.
 ///
 /// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
 /// point lies. E_1 and E_2 are the edges, and T is the vector from a corner to the
@@ -192,7 +192,8 @@ enum class Spanned : std::uint8_t {
     parallelogram ///< A parallelogram: u and v are in [0, 1].
 };
 
-/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule.
+/// Solves \f$ O + tD = V_1 + uE_1 + vE_2 \f$ by Cramer's rule, for the ray O + tD, the
+/// corner V_1 and the edges E_1 and E_2.
 ///
 /// With \f$ T = O - V_1 \f$, \f$ P = D \times E_2 \f$ and \f$ Q = T \times E_1 \f$:
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},

@@ -15,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup touching Surfaces in one place
-/// \brief Finds where two surfaces coincide or touch, as a slab and the floor under it.
-/// Chapter: \ref ch_refraction.
+/// \brief Finds where two surfaces coincide or touch, such as those of a slab and of
+/// the floor under the slab. Chapter: \ref ch_refraction.
 /// \{
 
 /// A piece of a surface: a convex polygon, a sphere or a tube. The facet of a sphere
@@ -29,12 +29,12 @@ struct SurfacePiece {
     glm::dvec3 displacement{0}; ///< The motion from time 0 to 1, in scene units.
 };
 
-/// The place that two pieces share.
+/// The region that two pieces share.
 struct SharedPlace {
-    BoxT<double> box{}; ///< A box around the place.
+    BoxT<double> box{}; ///< A box around the region.
     /// True if the pieces share an area; false if they only touch.
     bool over_area = false;
-    bool alike = false; ///< Whether the outsides of both are on the same side.
+    bool alike = false; ///< Whether both pieces have their outside on the same side.
 };
 
 namespace detail {
@@ -118,12 +118,11 @@ around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
     return {touch - half, touch + half};
 }
 
-/// The place that two polygons share.
+/// The region that two polygons share.
 /// \param one       The larger polygon.
 /// \param other     The smaller polygon.
 /// \param way       Displacement of `other` relative to `one`, from time 0 to 1.
-/// \param distance  Surfaces within this distance, in scene units, count as in one
-///                  place.
+/// \param distance  Surfaces within this distance, in scene units, count as coincident.
 /// \return As shared_place(). The box may be as large as `other`.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
@@ -143,7 +142,7 @@ shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3
                                 (one.inside_out == other.inside_out)};
 }
 
-/// The place that a polygon shares with a sphere or a tube; see shared_by_polygons().
+/// The region that a polygon shares with a sphere or a tube; see shared_by_polygons().
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_with_polygon(const SurfacePiece& polygon, const SurfacePiece& round,
                     const glm::dvec3& way, double distance) noexcept {
@@ -166,7 +165,7 @@ shared_with_polygon(const SurfacePiece& polygon, const SurfacePiece& round,
     return touches ? std::optional(place) : std::nullopt;
 }
 
-/// The place that two spheres or tubes share; see shared_by_polygons().
+/// The region that two spheres or tubes share; see shared_by_polygons().
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
                 const glm::dvec3& way, double distance) noexcept {
@@ -224,13 +223,12 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 
 } // namespace detail
 
-/// The place that two pieces of surfaces share at any time in [0, 1].
+/// The region that two pieces of surfaces share at any time in [0, 1].
 /// \param one       A piece.
 /// \param other     The other piece.
-/// \param distance  Surfaces within this distance, in scene units, count as in one
-///                  place.
-/// \return The shared place. Nothing if the pieces cross, if they share only an edge or
-///         a corner, or if they meet only for an instant.
+/// \param distance  Surfaces within this distance, in scene units, count as coincident.
+/// \return The shared region. Nothing if the pieces cross, if they share only an edge
+///         or a corner, or if they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {

@@ -37,9 +37,9 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// The vector \f$ E_1 \times E_2 \f$, in double. Its direction is the normal, and its
-/// length is twice the area. In float, the normal of a thin triangle would be
-/// inaccurate.
+/// The cross product of the two edges at a triangle's first vertex, in double. Its
+/// direction is the normal, and its length is twice the area. In float, the normal of a
+/// thin triangle would be inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};
@@ -82,8 +82,8 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     return hit;
 }
 
-/// The unit normal of a triangle with an area. The vertices turn counter-clockwise
-/// around the normal.
+/// The unit normal of a triangle, around which the vertices turn counter-clockwise. The
+/// triangle's area must not be 0.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const TriangleT<T>& triangle) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)));
@@ -140,7 +140,7 @@ template <std::floating_point T>
     return sample_area(triangle, u, normal(triangle));
 }
 
-/// The point of a triangle that a ray hit, from its coordinates u and v.
+/// The point of a triangle at a hit, from the hit's coordinates u and v.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const TriangleT<T>& triangle,
                                              const RayT<T>& /*ray*/,

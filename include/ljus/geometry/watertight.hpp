@@ -17,14 +17,14 @@ namespace ljus {
 /// \{
 
 /// Selects the watertight test for triangles: `intersect<Watertight>(ray, triangle)`.
-/// It can be used in place of a precision wherever a loop or a tree takes one. Spheres
-/// are then intersected in their usual precision, and quads in double.
+/// Loops and trees accept it in place of a precision. Spheres are then intersected in
+/// their usual precision, and quads in double.
 struct Watertight {};
 
 namespace detail {
 
-/// The shear that maps a ray's direction to the z axis, after an exchange of the axes.
-/// It is the same for all triangles.
+/// The shear that maps a ray's direction D to the z axis, after an exchange of axes. It
+/// is the same for all triangles.
 template <std::floating_point T>
 struct ShearT {
     int x = 0;   ///< The axis that becomes x.

@@ -69,7 +69,7 @@ template <std::floating_point T>
 struct FilterSampleT {
     /// The position in pixels, from the pixel's upper left corner.
     Vec2T<T> place{T(0)};
-    T weight = T(1); ///< The filter over the pdf; the mean of all weights is 1.
+    T weight = T(1); ///< The filter divided by the pdf; its mean is 1.
 };
 
 namespace detail {
@@ -103,7 +103,7 @@ using FilterTable = std::array<double, 65>;
 /// \param u       A random number in [0, 1]. The position increases with u, so that
 ///                strata of u give strata of positions.
 /// \return In x the signed distance from the pixel's centre, in pixels; in y the
-///         weight, the filter over the pdf.
+///         weight, which is the filter divided by the pdf.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> sample_filter_axis(Filter filter, T u) noexcept {
     const T v = std::abs(T(2) * u - T(1)); // by symmetry

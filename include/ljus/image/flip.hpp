@@ -169,14 +169,14 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
         std::copy_n(&pixel(from, x, y + row), width, &pixel(to, to_x, to_y + row));
 }
 
-/// Makes a map of two pictures tile by tile, so that intermediate results need memory
-/// for one tile only. Each tile includes a margin of eye_radius() pixels. The map is
-/// therefore the same as without tiles.
+/// Makes an error map of two pictures tile by tile, so that intermediate results need
+/// memory for one tile only. Each tile includes a margin of eye_radius() pixels. The
+/// map is therefore the same as without tiles.
 /// \param image      The picture.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        Pixels per degree of the visual field.
-/// \param make       Called as make(image, reference); returns the map of a part of
-///                   both pictures.
+/// \param make       Called as make(image, reference) with a tile of both pictures;
+///                   returns the error map of this tile.
 template <std::floating_point T, std::floating_point U, typename Make>
 [[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,
                                           const ImageT<U>& reference, double ppd,
@@ -323,10 +323,9 @@ template <std::floating_point T, std::floating_point U>
 } // namespace detail
 
 /// FLIP of each pixel: how visible the change of the pixel is to a viewer who flips
-/// between two pictures.
-/// Before colours are compared, detail too fine for the eye is blurred. Where only one
-/// picture has an edge or a point, the colour difference is raised to a power below 1,
-/// which makes it larger.
+/// between two pictures. Before colours are compared, detail that is too fine for the
+/// eye is blurred. Where only one picture has an edge or a point, the colour difference
+/// is raised to a power below 1, which makes it larger.
 /// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
@@ -348,9 +347,10 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of flip_map().
-/// *Trap*: FLIP is valid for pictures shown alternately at the same place of a screen,
-/// for one viewing distance and one exposure. The FLIP values of several errors cannot
-/// be added.
+///
+/// *Trap*: FLIP is valid for pictures shown alternately in the same position on a
+/// screen, for one viewing distance and one exposure. The FLIP values of several errors
+/// cannot be added.
 /// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
 /// \param reference  The other picture, of the same size.
 /// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().

@@ -18,8 +18,8 @@ namespace ljus {
 /// The photons of one kind.
 struct PhotonCount {
     std::uint64_t photons = 0; ///< Number of photons.
-    /// Sum of the flux of these photons, in W; for shadow photons, the flux that is
-    /// missing.
+    /// Sum of the flux of these photons, in W; for shadow photons, the flux that the
+    /// shadow lacks.
     RgbT<double> flux{0};
 };
 

@@ -14,7 +14,8 @@ namespace ljus {
 /// \addtogroup light_path_expression
 /// \{
 
-/// The mean radiance over all pixels that each class of paths adds to a picture.
+/// For each class of paths, the radiance that it adds to a picture, as a mean over all
+/// pixels.
 ///
 /// The renderer reports each term with the letters of its path, from which the class is
 /// known. All classes are measured on the same random paths. The means of disjoint

@@ -62,15 +62,16 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 ///
 /// *Trap*: the standard error is itself estimated from the same samples. It is too
 /// small where the variance is infinite, or where few samples find the light.
-/// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2.
+/// \return sqrt(variance / n), in the unit of the samples; infinity for fewer than 2
+///         samples.
 [[nodiscard]] inline double standard_error(const Estimate& estimate) noexcept {
     return std::sqrt(variance(estimate) / estimate.count);
 }
 
-/// How often a mean is at least this far from the truth by noise alone: both tails of
-/// Student's distribution.
+/// The probability that noise alone moves a mean at least a given distance from the
+/// truth: both tails of Student's distribution.
 /// \param errors  The distance in standard errors, at least 0.
-/// \param count   The number of samples that gave both, at least 2.
+/// \param count   The number of samples of the mean, at least 2.
 /// \return A probability, to about 1e-6.
 [[nodiscard]] inline double chance_beyond(double errors, double count) {
     const double freedom = count - 1;

@@ -69,8 +69,9 @@ struct RelativeSquare {
 
 } // namespace detail
 
-/// The root mean square error, sqrt(mean (x - r)^2). Theory uses this metric: for an
-/// unbiased method with n samples it falls as 1/sqrt(n).
+/// The root mean square error, sqrt(mean (x - r)^2), of a picture x against a reference
+/// r. Theory uses this metric: for an unbiased method with n samples, the metric falls
+/// as 1/sqrt(n).
 ///
 /// *Trap*: a few highlights dominate the metric, and dark regions hardly count.
 /// \return The error, in units of radiance.
@@ -81,11 +82,14 @@ template <std::floating_point T, std::floating_point U>
     return std::sqrt(detail::mean(detail::pixel_errors(image, reference, square)));
 }
 
-/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon), after
-/// \cite rousselle2011. Like the eye, the metric responds to relative differences.
-/// *Trap*: values with different epsilons cannot be compared, nor values of tools that
-/// divide by (r + epsilon)^2. State the epsilon. It is a squared radiance above 0, and
-/// pixels darker than its root count less.
+/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon), of a picture x
+/// against a reference r \cite rousselle2011. Like the eye, the metric responds to
+/// relative differences.
+///
+/// *Trap*: state the epsilon, because values with different epsilons cannot be
+/// compared. Some tools divide by (r + epsilon)^2 instead; their values cannot be
+/// compared with these. The epsilon is a squared radiance above 0. Pixels darker than
+/// its square root count less.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
@@ -149,13 +153,15 @@ template <std::floating_point T>
     return means;
 }
 
-/// The relMSE between the block means of two pictures, by default of 10 x 10 pixels. It
-/// measures bias. In the squared error of such a block, noise that is independent
-/// between pixels is 100 times weaker, but an error that neighbouring pixels share is
-/// as large as before. A blur that stays within blocks does not show. *Trap*: with
-/// photon maps neighbouring pixels share photons, so that their noise remains in the
-/// block means too; use several seeds and bias_variance() there. Narrow blocks at the
-/// right and lower edge (see block_means()) have the weight of whole ones.
+/// The rel_mse() of the block means of two pictures, which measures bias. By default a
+/// block has 10 x 10 pixels. In the squared error of such a block, noise that is
+/// independent between pixels is 100 times weaker, but an error that neighbouring
+/// pixels share is as large as before. A blur that stays within blocks does not show.
+/// Narrow blocks at the right and lower edge have the weight of whole blocks; see
+/// block_means().
+///
+/// *Trap*: with photon maps, neighbouring pixels share photons. Their noise therefore
+/// remains in the block means. Use several seeds and bias_variance() instead.
 /// \return Dimensionless.
 /// \throws std::invalid_argument  as rel_mse() and block_means().
 template <std::floating_point T, std::floating_point U>
@@ -172,13 +178,15 @@ struct BiasVariance {
 };
 
 /// Splits the mean square error of a method by running it with several seeds. For each
-/// pixel and channel, m is the mean of the M runs. Then variance = sum (x - m)^2 / (M -
-/// 1), and bias^2 = (m - r)^2 - variance / M, where the last term is the noise that m
-/// still has. The sum of bias^2 and variance is the expected mean square error of a
-/// run. Noise that neighbouring pixels share, as with photon maps, does not count as
-/// bias, because whole runs are compared. *Trap*: the estimate of bias^2 for a method
-/// without bias may be negative by chance. It is not clamped to 0, because that would
-/// bias the estimate.
+/// pixel and channel, x is the value of a run, r that of the reference, and m the mean
+/// of the M runs. Then variance = sum (x - m)^2 / (M - 1), and bias^2 = (m - r)^2 -
+/// variance / M, where the last term is the noise that m still has. The sum of bias^2
+/// and variance is the expected mean square error of a run. Noise that neighbouring
+/// pixels share, as with photon maps, does not count as bias, because whole runs are
+/// compared.
+///
+/// *Trap*: the estimate of bias^2 for a method without bias may be negative by chance.
+/// The estimate is not clamped to 0, because clamping would bias it.
 /// \param runs       At least 2 pictures of the same size, with independent seeds.
 /// \param reference  The reference, of that size. Its own noise adds to bias^2.
 /// \return Both terms, in units of radiance squared.
@@ -257,7 +265,7 @@ template <std::floating_point T>
 /// \param reference  A picture of the same size, without noise.
 /// \param size       Side of a block in pixels, at least 1.
 /// \return For each block, row by row, one number of at least 0 per channel. Infinity
-///         if the pictures differ, but the runs do not.
+///         for a block that is equal in all runs but differs from the reference.
 /// \throws std::invalid_argument  as block_statistics().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] std::vector<double> block_deviations(const std::vector<ImageT<T>>& runs,

@@ -20,15 +20,15 @@ namespace ljus {
 /// \brief Drawings of photons as in figures 5 to 8 of the report (Section 3.2.2).
 /// \{
 
-/// The look of a dot. Its brightness falls linearly from the middle to the edge, like a
-/// cone, and its size does not depend on distance.
+/// The size and the brightness of a dot. The brightness falls linearly from the middle
+/// to the edge. The size does not depend on the distance of the photon.
 struct PhotonDotSettings {
-    float radius = 1.0f;     ///< Radius of the dot in pixels, above 0.
+    float radius = 1.0f;     ///< Radius of the dot in pixels, in (0, 1000].
     float brightness = 0.8f; ///< Brightness in the middle; overlapping dots add up.
 };
 
 /// A background for photons: the colours of the surfaces without lighting, darkened at
-/// low angles. Mirrors and glass are grey, and lamps are bright.
+/// grazing angles. Mirrors and glass are grey, and lamps are bright.
 /// \throws std::invalid_argument  if the width or the height is below 1.
 /// \cost One ray per pixel.
 template <AnyWorld W, std::floating_point T>

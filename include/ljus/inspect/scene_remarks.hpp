@@ -29,8 +29,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The part of a photon's flux that estimates find on the surfaces along one line,
-/// which crosses the photon's disc at a right angle. On a flat surface this is about
+/// The part of a photon's flux that estimates find on the surfaces along one line. The
+/// line crosses the photon's disc at a right angle. On a flat surface the part is about
 /// the kernel's weight.
 /// \param offset   The vector from the photon to the line, within the disc, in units of
 ///                 the radius.
@@ -60,12 +60,12 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 } // namespace detail
 
-/// The fraction of light that estimates lose at the edges of an object, for the object
-/// that loses most. An estimate spreads each photon over a disc, and flux beyond the
+/// The fraction of light that estimates lose at the edges of an object. The object that
+/// loses most counts. An estimate spreads each photon over a disc, and flux beyond the
 /// edges of the object is lost. Objects with few sampled photons count together, as one
 /// object. Estimates are assumed to use all photons within the radius. The seed is for
 /// random points in the discs.
-/// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in all.
+/// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in total.
 /// \cost Five rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,
@@ -189,7 +189,7 @@ template <AnyWorld W>
 }
 
 /// The number of objects with a glossy lobe so narrow that a shadow ray hardly ever
-/// lies in it: its density is above 1000 per steradian.
+/// lies in it: the density of the lobe is above 1000 per steradian.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::size_t narrow_lobes(const W& world) {
     using T = typename W::Scalar;
@@ -208,8 +208,8 @@ template <AnyWorld W>
     return count;
 }
 
-/// Remarks about a scene where something moves, because one photon map holds the light
-/// of all times.
+/// Remarks about a scene in which something moves. They are necessary because one
+/// photon map holds the light of all times.
 /// \param caustics  Whether a caustics map is looked up.
 /// \param gathered  Whether indirect rays end at a lookup of the general map.
 template <AnyWorld W>
@@ -263,8 +263,8 @@ template <AnyWorld W>
     return steep;
 }
 
-/// Adds remarks about surfaces of different objects that lie in one place. There is one
-/// remark for each rule that decides which surface a ray meets.
+/// Adds remarks about surfaces of different objects that coincide. There is one remark
+/// for each rule that decides which surface a ray meets.
 /// \param type_of  The name of an object's shape, such as "QuadT<float>".
 [[gnu::cold]] LJUS_CORE_INLINE void
 add_contact_remarks(const Contacts& contacts,
@@ -274,8 +274,8 @@ add_contact_remarks(const Contacts& contacts,
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
 /// The rule that decides a contact, as the end of a sentence.
-/// \return Null if no remark is needed: surfaces that touch only in points, or opaque
-///         surfaces back to back.
+/// \return Null if no remark is needed, as for surfaces that touch only in points and
+///         for opaque surfaces back to back.
 [[nodiscard, gnu::cold]] inline const char*
 contact_rule(const Contact& contact, ContactKind met, ContactKind other) noexcept {
     if (!contact.over_area) return nullptr;

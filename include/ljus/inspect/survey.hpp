@@ -33,8 +33,8 @@ struct Plan {
     PlanItem volume_map;      ///< Photons where fog scatters them.
     PlanItem shadow_photons;  ///< Shadow photons in the general map.
     PlanItem skipped_rays;    ///< Shadow rays that photons make unnecessary.
-    PlanItem skipped_bounces; ///< Indirect rays, omitted where no indirect photon is
-                              ///< near.
+    PlanItem skipped_bounces; ///< Indirect rays that are left out where no indirect
+                              ///< photon is near.
     PlanItem irradiance;      ///< Irradiance points, which gather rays look up.
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Thin surfaces, through which paths pass.
@@ -263,8 +263,7 @@ template <AnyWorld W>
 /// \param world  The closed scene; only its type is used.
 /// \return One line per type of shape, material and light that the scene lists, in
 ///         their order. A line has the name of the type, the hooks that it has, and
-///         what happens without the other hooks. A misspelt hook appears among the
-///         others.
+///         what happens without the other hooks. A misspelt hook counts as missing.
 template <AnyWorld W>
 [[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {
     std::vector<std::string> lines;

@@ -136,7 +136,7 @@ struct FileReader {
         return detail::number_at<Number>(bytes, position - sizeof(Number));
     }
 
-    /// Reads the next three numbers, as take() does.
+    /// Reads three numbers, each by take().
     template <typename Vector>
     [[nodiscard]] Vector take_vector() {
         Vector v;
@@ -166,7 +166,7 @@ inline void take_format(FileReader& file, const FileFormat& format) {
 } // namespace detail
 
 /// Loads a file and checks its header.
-/// \return The file; the first number that is read follows the version.
+/// \return A reader of the file, at the first number after the version.
 /// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...", if the
 ///         file is truncated, damaged, or of another version or format.
 [[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,

@@ -28,8 +28,8 @@ namespace ljus {
 
 /// \defgroup exr EXR
 /// \brief The file format of the film industry. One file can hold a picture and its
-/// layers. This header needs OpenEXR 3.1 or later. A program links OpenEXRCore, with
-/// -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
+/// layers. This header needs OpenEXR 3.1 or later. A program must link OpenEXRCore,
+/// with -lOpenEXRCore-3_1 or by its CMake target OpenEXR::OpenEXRCore.
 /// \{
 
 /// How numbers are stored in an EXR file.
@@ -525,10 +525,10 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 /// several, numbers of any type, and every compression that OpenEXRCore reads. Deep
 /// parts are left out, and so are channels with fewer values than pixels.
 /// \return The layers in the order of the parts, and within a part in the order of
-///         names. Channels R, G, B or X, Y, Z of one name form a layer; every other
-///         channel is a layer of its own. In a file of several parts, a channel without
-///         a layer name has the name of its part. A layer has the pixels of its part's
-///         data window.
+///         names. Channels R, G, B or X, Y, Z with the same layer name form a layer;
+///         every other channel is a layer of its own. In a file of several parts, the
+///         name of a part is the layer name of its channels that have none. A layer has
+///         the pixels of its part's data window.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is
 ///         damaged, or has more than 2^27 pixels in all layers together.
 /// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
@@ -542,8 +542,8 @@ template <std::floating_point T = float>
     return layers;
 }
 
-/// Loads one picture from an EXR file: its channels R, G and B, or the grey picture of
-/// its channel Y.
+/// Loads one picture from an EXR file, in colour from the channels R, G and B, or in
+/// grey from the channel Y.
 /// \param path   The file.
 /// \param layer  The name of a layer, such as "albedo"; empty for the picture itself.
 /// \return The picture of the data window, as it is stored: values may be negative,
@@ -611,7 +611,7 @@ struct WithExr {
                                   const std::string& normals) const {
         return files(path, scale, normals);
     }
-    /// Reads a mesh file with its materials, if `files` does.
+    /// Reads a mesh file with its materials, if `files` can read materials.
     template <typename F = Files>
     requires requires(const F& by, const std::string& text) {
         by.with_materials(text, 1.0, text);

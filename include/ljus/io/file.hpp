@@ -73,9 +73,9 @@ inline std::string one_path(const std::string& path) {
 
 } // namespace detail
 
-/// A list of the files that this thread reads while the list exists. It thus collects
-/// all files of a scene, with meshes, materials and pictures. If several lists exist, a
-/// file goes into the newest list only.
+/// A list of the files that this thread reads while the list exists. While a scene is
+/// loaded, the list collects the scene file and all files of meshes, materials and
+/// pictures. If several lists exist, a file goes into the newest list only.
 class FilesRead {
 public:
     /// A file that the thread has tried to read.
@@ -118,10 +118,11 @@ private:
 /// Reads a file piece by piece. If a FilesRead exists, the file is added to its list.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
-/// \param use   Called as use(text, last) with a piece, and whether it is the last one;
-///              returns the number of bytes that it has used. The next piece begins
-///              with the other bytes.
-/// \throws std::runtime_error  with path and reason.
+/// \param use   Called as use(text, last) with a piece, and whether this is the last
+///              piece. Returns the number of bytes used, from the start of the piece.
+///              The next piece begins with the unused bytes.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read or is
+///         too large.
 template <typename Use>
 void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     FilesRead* const notes = FilesRead::current();
@@ -174,7 +175,8 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
 /// \param most  The largest size in bytes.
 /// \param begin The bytes with which the file must begin. They are tested before the
 ///              rest is read.
-/// \throws std::runtime_error  with path and reason.
+/// \throws std::runtime_error  with path and reason, if the file cannot be read, is too
+///         large, or begins with other bytes.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
     Bytes bytes;

@@ -85,11 +85,11 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 
 /// Loads a light map.
 /// \param path  The file.
-/// \param key   The key that it must have, from light_map_key().
+/// \param key   The key that the file must have, from light_map_key().
 /// \param most  The largest number of patches.
 /// \return The map, equal to the saved one in every bit.
 /// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
-///         ...": if the scene or the settings differ, or as open_file().
+///         ..." if the scene or the settings differ; otherwise as open_file().
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              const LightMapKey& key,
                                              std::size_t most = 10'000'000) {

@@ -28,14 +28,15 @@ namespace ljus {
 /// The emissiveFactor, times the strength of KHR_materials_emissive_strength, is used
 /// as radiance, in W/(m^2 sr). A material with an emissiveTexture does not glow.
 ///
-/// All pictures of a material are looked up like its baseColorTexture, by its sampler
-/// and its KHR_texture_transform. With alphaMode MASK, the alpha of that picture cuts
-/// holes. Each mesh has copies of its pictures. The width and height of all pictures
-/// are halved until the copies have at most 2^25 pixels together.
+/// All pictures of a material are looked up by the sampler and the
+/// KHR_texture_transform of the baseColorTexture. With alphaMode MASK, the alpha of the
+/// baseColorTexture cuts holes. Each mesh has copies of its pictures. The width and
+/// height of all pictures are halved until the copies have at most 2^25 pixels
+/// together.
 ///
-/// Lights of KHR_lights_punctual have W/sr in place of candela, and W/m^2 in place of
-/// lux. Intensities are multiplied by the square of `scale`, so that the irradiance on
-/// surfaces does not depend on the scale.
+/// The intensities of KHR_lights_punctual are read as W/sr instead of candela, and as
+/// W/m^2 instead of lux. Intensities are multiplied by the square of `scale`, so that
+/// the irradiance on surfaces does not depend on the scale.
 /// \param bytes     The bytes of the file.
 /// \param file      The path of the file, for messages. Buffers and pictures are looked
 ///                  for in its folder.

@@ -17,9 +17,9 @@ namespace ljus {
 /// \brief Files of the North American standard LM-63 \cite lm63, in which makers of
 /// lamps publish measurements. Chapter: \ref ch_lamps.
 ///
-/// The versions of 1986, 1991, 1995 and 2002 are read, all types of photometry and all
-/// symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a lamp dims when
-/// its luminaire is tilted; it is read and not used.
+/// This header reads the versions of 1986, 1991, 1995 and 2002, with all types of
+/// photometry, all symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a
+/// lamp dims when its luminaire is tilted; it is read and not used.
 /// \{
 
 /// The content of an IES file.
@@ -42,10 +42,10 @@ inline constexpr std::size_t max_ies_file = std::size_t(1) << 22;
 struct IesReader {
     std::string_view rest;   ///< The text that is not read yet.
     const std::string& file; ///< The path of the file.
-    long long line = 0;      ///< The number of the line that was taken last.
-    Words words{};           ///< The unread words of that line.
+    long long line = 0;      ///< The number of the current line.
+    Words words{};           ///< The unread words of the current line.
 
-    /// Refuses the file because of its current line.
+    /// Throws an exception that names the file and the current line.
     [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
         throw std::runtime_error(
             join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
@@ -111,8 +111,8 @@ struct IesGrid {
         for (std::size_t i = 0; i < vertical.size(); ++i)
             candela.push_back(from.candela[column * vertical.size() + i]);
     }
-    /// Appends the mirror images of all columns but the last. The mirror plane is that
-    /// of the last column.
+    /// Appends the mirror images of all columns but the last. The mirror plane goes
+    /// through the last column.
     void mirror() {
         const double plane = horizontal.back();
         for (std::size_t column = horizontal.size() - 1; column > 0; --column)

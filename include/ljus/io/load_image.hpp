@@ -3,10 +3,10 @@
 /// \file ljus/io/load_image.hpp
 /// \brief Loads PNG, JPEG and BMP pictures, in linear colours.
 ///
-/// stb_image decodes them. This header compiles its implementation for itself, hidden
-/// from other files; a program with its own implementation in the *same* file must
-/// include that first. Without stb_image, loading a picture throws an error that says
-/// so.
+/// The pictures are decoded by stb_image. This header compiles the implementation of
+/// stb_image, hidden from other files. A program that compiles stb_image in the *same*
+/// file must include stb_image before this header. Without stb_image, loading a picture
+/// throws an error that says so.
 
 #include "ljus/io/detail/stb_memory.hpp"
 
@@ -102,7 +102,7 @@ namespace ljus {
 
 /// \defgroup load_image Loading pictures
 /// \brief Loading needs the package stb_image. Only PNG, JPEG and BMP are read, because
-/// damaged files of rare formats are more likely to harm their readers.
+/// the decoders of rare formats are more likely to fail on damaged files.
 /// \{
 
 /// What is read from a picture.
@@ -230,17 +230,17 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// Decodes a picture.
 /// \param bytes   The file.
 /// \param path    The path of the file, for messages.
-/// \param others  The number of pixels in other pictures that are kept. All pictures
-///                together are limited, because a file of four kilobytes can have
-///                thirty million pixels.
+/// \param others  The number of pixels in all pictures that the caller keeps already.
+///                All pictures together are limited, because a file of four kilobytes
+///                can have thirty million pixels.
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright
 ///         by its EXIF orientation. A pixel whose number is beyond the end of its
 ///         palette is black.
 /// \throws std::runtime_error  with path and reason, if the file is not a picture or is
-///         too large, or if colours are read from a file that declares other colours
-///         than sRGB; std::bad_alloc if there is not enough memory.
+///         too large, or if colours are read from a file that declares a colour space
+///         other than sRGB; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_mesh.hpp
-/// \brief Reads mesh files of all known formats, also those that scene files name.
+/// \brief Reads mesh files of all supported formats, also for scene files.
 
 #include <nlohmann/json.hpp>
 

@@ -415,8 +415,8 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
 /// \param file      The path of the file, for messages. Material files are looked for
 ///                  in its folder.
 /// \param settings  Scale and normals.
-/// \return The meshes, and a report of the problems of the file. Parts that cannot be
-///         used are left out and counted.
+/// \return The meshes, and a report of the problems of the file. Elements of the file
+///         that cannot be used are left out and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
 ///         cannot be made: "box.obj: no face of the file can be used; the first
 ///         problem: line 7: 12 faces refer to a vertex that does not exist; ..."

@@ -137,8 +137,8 @@ struct StlReader {
 } // namespace detail
 
 /// Reads a mesh from the bytes of an STL file, text or binary. Corners at the same
-/// position become one vertex. The normals of the file are not used. The report says
-/// where a normal points to the other side of its triangle.
+/// position become one vertex. The normals of the file are not used. The report counts
+/// the normals that disagree with the order of the corners.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "gear.stl: its head says that it has
 ///         9000 triangles, but there are bytes for 12 only."; or as read_obj().

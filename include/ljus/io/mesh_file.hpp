@@ -52,7 +52,8 @@ struct MeshFileSettings {
 /// A picture of a material.
 struct MeshImage {
     std::string name{}; ///< Key in LoadedMeshT::pictures; empty: no picture.
-    std::string at{};   ///< The place that names the picture: "room.mtl, line 12".
+    /// Where the file names the picture, such as "room.mtl, line 12".
+    std::string at{};
 };
 
 /// A material as a mesh file describes it.
@@ -66,8 +67,8 @@ struct MeshMaterial {
     glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0.
     double roughness = 0;   ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
     double index = 1.5;     ///< Index of refraction Ni, within [0.001, 1000].
-    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, Tr = 1 is taken
-    /// for opaque.
+    /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, a Tr of 1
+    /// counts as opaque.
     double dissolve = 1;
     /// The number illum: 3, 5 and 8 are mirrors; 4, 6, 7 and 9 are glass. These four
     /// are not glass if Ni is 1, because some programs write them for every material.
@@ -75,8 +76,8 @@ struct MeshMaterial {
     MeshImage picture{}; ///< A picture of colours, which are multiplied by `diffuse`.
     MeshImage mask{};    ///< A picture of alpha, which cuts holes; see Holes.
     MeshImage normals{}; ///< A picture of normals; see NormalMapT.
-    /// If true, `mask` is the alpha of its picture. If false, the red channel of a
-    /// picture without alpha takes its place.
+    /// Whether `mask` always uses the alpha channel of the picture. If false, the red
+    /// channel is used for a picture without alpha.
     bool mask_is_alpha = true;
     double cutoff = 0.5;    ///< There is a hole where alpha is below this; at least 0.
     UvMapT<double> map{};   ///< How the pictures lie on the surface.
@@ -116,8 +117,8 @@ struct LoadedMeshT {
     std::vector<MeshPartT<T>> parts{}; ///< The parts, one per material, in order of
                                        ///< first use.
     MeshReport report{};               ///< The problems of the file, and counts.
-    /// The pictures of the materials that could be read, by name: colours, alpha and
-    /// normals.
+    /// The pictures of the materials, by name: colours, alpha and normals. Pictures
+    /// that cannot be read are missing.
     std::map<std::string, ImageT<T>> pictures{};
     std::vector<MeshCameraT<T>> cameras{}; ///< Cameras of a glTF file, in the order of
                                            ///< the nodes.
@@ -142,8 +143,10 @@ template <Material Base, std::floating_point T = typename Base::Scalar>
 using MeshDetailedT =
     CutOut<Textured<Textured<Base, PictureTextureT<T, UvMapT<T>>>, NormalMapT<T>>,
            PictureTextureT<T, UvMapT<T>>>;
-using MeshDetailed = MeshDetailedT<Lambertian>;  ///< A matt surface, in float.
-using MeshMetalDetailed = MeshDetailedT<Glossy>; ///< A metal surface, in float.
+/// MeshDetailedT of a matt surface, in float.
+using MeshDetailed = MeshDetailedT<Lambertian>;
+/// MeshDetailedT of a metal, in float.
+using MeshMetalDetailed = MeshDetailedT<Glossy>;
 
 namespace detail {
 
@@ -184,7 +187,8 @@ MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
 } // namespace detail
 
 /// Adds a material of a mesh file to a scene, as add_meshes() does.
-/// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
+/// \tparam Map    The type of map in the picture materials of the scene; void means
+///                UvMapT.
 /// \param scene   A scene that lists Lambertian.
 /// \param is      The material.
 /// \param loaded  The content of the file, with the pictures of the material.
@@ -235,7 +239,8 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
 /// for metals, MeshMetalPicture or MeshMetalDetailed. Holes and normal maps need
 /// MeshDetailed or MeshMetalDetailed. A mesh with emission is a lamp, and has no holes
 /// or normal map. Lights of the file are added if the scene lists their types.
-/// \tparam Map    The map of the pictures that the scene lists; void: UvMapT.
+/// \tparam Map    The type of map in the picture materials of the scene; void means
+///                UvMapT.
 /// \param scene   A scene that lists Mesh and Lambertian.
 /// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().
 template <typename Map = void, typename Scene, std::floating_point T>

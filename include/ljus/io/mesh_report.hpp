@@ -26,24 +26,24 @@ enum class MeshTrouble : std::uint8_t {
     bad_normal, ///< A normal that is 0 or not finite; faces with it are flat.
     bad_uv,     ///< A texture coordinate that is not finite; faces with it get (0, 0).
     no_uv,      ///< A face without texture coordinates in a mesh that has some.
-    bad_index,  ///< A face with a vertex that does not exist, left out.
+    bad_index,  ///< A face with a vertex that does not exist; it is left out.
     no_such_uv, ///< A face with a uv that does not exist: it gets (0, 0).
     no_such_normal, ///< A face with a normal that does not exist: it is flat.
-    not_smooth,     ///< A face of a smoothing group without normals: it is flat.
-    few_corners,    ///< A face with fewer than three corners, left out.
-    many_corners,   ///< A face with more than 1000 corners, left out.
-    no_area,        ///< A face without an area, left out.
+    not_smooth,     ///< A face without normals in a smoothing group: it is flat.
+    few_corners,    ///< A face with fewer than three corners; it is left out.
+    many_corners,   ///< A face with more than 1000 corners; it is left out.
+    no_area,        ///< A face with an area of 0; it is left out.
     crossed,        ///< A face that crosses itself: its triangles overlap.
-    turned,         ///< A face whose normals point to its back; they are not used.
-    edge_of_many,   ///< An edge of three or more faces; the mesh has no inside.
-    edge_turned,    ///< An edge whose two faces are wound in opposite directions.
-    edge_open,      ///< An edge of one face: the mesh is not closed, and unsuitable for
-                    ///< glass.
-    inside_out,     ///< The mesh is closed, but inside out: its volume is below 0.
-    vertex_color,   ///< A vertex with its own colour, which is not used.
-    no_face,        ///< A line, point, curve or surface, left out.
-    no_material,    ///< A material that does not exist.
-    no_library,     ///< A material file that cannot be read.
+    turned,       ///< A face whose normals point to its back; the normals are ignored.
+    edge_of_many, ///< An edge of three or more faces; the mesh has no inside.
+    edge_turned,  ///< An edge whose two faces are wound in opposite directions.
+    edge_open,    ///< An edge of one face: the mesh is not closed, and unsuitable for
+                  ///< glass.
+    inside_out,   ///< The mesh is closed, but inside out: its volume is below 0.
+    vertex_color, ///< A vertex with its own colour, which is not used.
+    no_face,      ///< A line, point, curve or surface; it is left out.
+    no_material,  ///< A material that does not exist.
+    no_library,   ///< A material file that cannot be read.
 };
 
 namespace detail {
@@ -55,8 +55,9 @@ inline constexpr std::size_t mesh_troubles = 21;
 /// The number of occurrences of a problem.
 struct MeshCount {
     long long count = 0; ///< Number of occurrences.
-    long long line = 0;  ///< The first place, in lines or another MeshReport::unit,
-                         ///< from 1.
+    /// The first occurrence: the number of a line, or of another MeshReport::unit, from
+    /// 1.
+    long long line = 0;
 };
 
 /// The numbers of vertices, faces and other elements of a mesh file.
@@ -67,28 +68,28 @@ struct MeshContent {
     long long objects = 0;  ///< Number of objects: the lines o.
     long long groups = 0;   ///< Number of groups: the lines g.
     long long faces = 0;    ///< Number of faces that are used.
-    /// Number of faces of more than three corners, which are cut.
+    /// Number of faces with more than three corners.
     long long polygons = 0;
     /// Number of faces whose normals are missing or not used.
     long long flat_faces = 0;
     long long no_uv_faces = 0; ///< Number of faces without usable texture coordinates.
-    long long unused = 0;      ///< Number of vertices that no triangle has.
-    bool closed = false; ///< Whether each edge has two faces, which are wound alike.
+    long long unused = 0;      ///< Number of vertices that no triangle uses.
+    bool closed = false; ///< Whether each edge has two faces with the same winding.
     double volume = 0; ///< Signed volume of a closed mesh; below 0 if it is inside out.
 };
 
 /// The problems of a mesh file.
 struct MeshReport {
-    /// The unit of the places in `counts`: a line of a text, an element of a PLY file,
-    /// or a triangle of an STL or glTF file.
+    /// What MeshCount::line counts: lines of a text, elements of a PLY file, or
+    /// triangles of an STL or glTF file.
     const char* unit = "line";
     /// The counts, indexed by MeshTrouble.
     std::array<MeshCount, detail::mesh_troubles> counts{};
     /// One sentence for each further problem, for example of a material file.
     std::vector<std::string> notes{};
-    MeshContent content{}; ///< Counts of all that was read.
+    MeshContent content{}; ///< The numbers of elements in the file.
 
-    /// Adds occurrences of a problem, the first of them at this line.
+    /// Adds `count` occurrences of a problem. The first is at `line`.
     void add(MeshTrouble trouble, long long line, long long count = 1) {
         MeshCount& at = counts[static_cast<std::size_t>(trouble)];
         if (at.count == 0 || line < at.line) at.line = line;

@@ -51,7 +51,8 @@ namespace ljus {
 /// \param words  The known words.
 /// \return The known word with the smallest edit distance, if at most one letter in
 ///         three is wrong. Otherwise a known word that contains the given word or is
-///         part of it. Of several words the first; an empty text if there is none.
+///         part of it. If several words fit, the first of them; if none fits, an empty
+///         text.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;

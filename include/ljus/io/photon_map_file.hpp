@@ -246,18 +246,18 @@ struct PhotonMapFileSettings {
     std::uint64_t key = 0;     ///< The key that the file must have.
     bool check = true;         ///< Whether the whole file is read and checked first.
                                ///< Otherwise damage is not noticed.
-    bool single_pages = false; ///< Whether a search reads only the pages that it needs;
+    bool single_pages = false; ///< True to read no page ahead of a search;
                                ///< for a map larger than the memory.
     int threads = 0;           ///< Threads for the check, as in ParallelSettings.
 };
 
 /// Opens a photon map in a file. The file is mapped into memory: a search reads the
-/// pages that it needs, and the system drops pages when memory is short. Meanwhile
-/// save_photon_map() may replace the file, but no program may write into it or shorten
-/// it.
+/// pages that it needs, and the system drops pages when memory is short. While the map
+/// is open, save_photon_map() may replace the file, but no program may write into the
+/// file or shorten it.
 /// \return The map, equal to the saved one in every bit. The file stays mapped as long
-///         as this map exists, or a map to which it is moved. A copy of the map is in
-///         memory.
+///         as this map exists, or a map to which it is moved. A copy of the map does
+///         not need the file.
 /// \throws std::runtime_error  "cannot read 'a.photons': it is damaged ..."; also on a
 ///         system without mapped files.
 [[nodiscard]] inline PhotonMap

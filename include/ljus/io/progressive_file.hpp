@@ -12,10 +12,10 @@ namespace ljus {
 /// \brief Saves the state of a progressive picture, so that a killed program can be
 /// resumed.
 ///
-/// A file has the header of \ref binary_file, with the side of the blocks, width and
-/// height. Then follow the numbers of the state, the length of the text that describes
-/// the picture, and this text. save_file() replaces the older file in one step, so that
-/// the older or the newer file exists even if the program is killed.
+/// A file has the header of \ref binary_file, with the block_side, width and height of
+/// the picture. Then follow the numbers of the state, the length of the text that
+/// describes the picture, and this text. save_file() replaces the older file in one
+/// step, so that the older or the newer file exists even if the program is killed.
 /// \{
 
 namespace detail {
@@ -77,7 +77,8 @@ inline void require_sense(const FileReader& file, const ProgressiveState& state)
 } // namespace detail
 
 /// Saves a checkpoint.
-/// \throws std::runtime_error  as save_file(); std::invalid_argument without a pass.
+/// \throws std::runtime_error  as save_file(); std::invalid_argument if the state has
+///         no pass.
 /// \cost 48 bytes per pixel.
 inline void save_checkpoint(const std::string& path, const ProgressiveState& state) {
     require_at_least("the number of passes", state.passes, 1);
@@ -94,8 +95,8 @@ inline void save_checkpoint(const std::string& path, const ProgressiveState& sta
 
 /// Loads a checkpoint. require_first_pass() tests whether it belongs to a picture.
 /// \return The state, equal to the saved one in every bit.
-/// \throws std::runtime_error  "cannot read 'a.check': its checksum is wrong ...": as
-///         open_file().
+/// \throws std::runtime_error  as open_file(), such as "cannot read 'a.check': its
+///         checksum is wrong ...".
 [[nodiscard]] inline ProgressiveState load_checkpoint(const std::string& path) {
     FileReader file = open_file(path, detail::file_limit(std::size_t(max_pixels), 96),
                                 detail::checkpoint_format);

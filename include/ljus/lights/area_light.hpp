@@ -16,16 +16,18 @@ namespace ljus {
 /// Precomputed data of a lamp.
 template <std::floating_point T>
 struct LampT {
-    RgbT<T> radiance{T(0)};  ///< Emitted radiance in W/(m^2 sr).
-    Vec3T<T> normal{T(0)};   ///< Unit normal of a flat shape, otherwise 0.
-    T area = T(0);           ///< The area, in squared scene units.
-    bool inside_out = false; ///< Whether the lamp emits against the normal.
+    RgbT<T> radiance{T(0)}; ///< Emitted radiance in W/(m^2 sr).
+    Vec3T<T> normal{T(0)};  ///< Unit normal of a flat shape, otherwise 0.
+    T area = T(0);          ///< The area, in squared scene units.
+    /// True if the lamp emits on the side opposite to its normal.
+    bool inside_out = false;
     /// The result of area_sums(), if the shape has this function.
     std::vector<double> area_sums{};
 };
 
-/// A lamp: a shape that emits uniform radiance on the side of its normal or, inside
-/// out, on the other side. A scene makes a lamp from an object with a radiance.
+/// A lamp: a shape that emits uniform radiance on one side. This is the side of the
+/// normal, or the other side if LampT::inside_out is true. A scene makes a lamp from an
+/// object with a radiance.
 template <Shape S>
 struct AreaLightT {
     using Scalar = ScalarOf<S>; ///< The precision of its numbers.

@@ -41,8 +41,8 @@ namespace ljus {
 template <std::floating_point T>
 struct EnvironmentLightT {
     using Scalar = T; ///< The precision of its numbers.
-    /// The radiance in W/(m^2 sr). The picture may have any width and height, and one
-    /// pixel at least must not be black.
+    /// The radiance in W/(m^2 sr). The picture may have any width and height, and at
+    /// least one pixel must not be black.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
     T strength = T(1); ///< Factor of all radiance, above 0.
     T rotation_degrees =

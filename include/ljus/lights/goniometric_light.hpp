@@ -39,10 +39,10 @@ enum class Photometry : std::uint8_t {
     a  ///< For headlights: the pole is `reference`, which points up.
 };
 
-/// Intensities at a grid of angles. Between the angles they are interpolated
+/// Intensities at a grid of angles. Between the angles, the intensity is interpolated
 /// bilinearly. Outside the range of the angles the intensity is 0.
 struct IntensityTable {
-    Photometry type = Photometry::c; ///< Type of the photometer that measured them.
+    Photometry type = Photometry::c; ///< Type of the goniophotometer.
     /// Polar angles in degrees, within [0, 180]: at least two, in increasing order.
     std::vector<double> polar{};
     /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, over
@@ -105,13 +105,13 @@ namespace detail {
 }
 // [line times sine]
 
-/// The inverse of line_times_sine(): the x at which the integral is a given part of its
-/// value at x = length.
+/// The inverse of line_times_sine(): the x at which the integral is a given fraction of
+/// its value at x = length.
 /// \param c0      The linear function at x = 0, at least 0.
 /// \param c1      The slope of the linear function.
 /// \param theta0  The angle at x = 0, in radians.
 /// \param length  The largest x, in radians.
-/// \param part    The part, in [0, 1].
+/// \param part    The fraction, in [0, 1].
 /// \return In [0, length].
 /// \cost About four steps of Newton's method, safeguarded by bisection.
 [[nodiscard]] inline double invert_line_times_sine(double c0, double c1, double theta0,
@@ -131,10 +131,10 @@ namespace detail {
     return x;
 }
 
-/// The x at which the integral of a linear function from 0 to x is a given part of its
-/// integral from 0 to 1.
+/// The x at which the integral of a linear function from 0 to x is a given fraction of
+/// its integral from 0 to 1.
 /// \param a, b  The function at 0 and at 1, at least 0.
-/// \param part  The part, in [0, 1].
+/// \param part  The fraction, in [0, 1].
 [[nodiscard]] inline double invert_line(double a, double b, double part) noexcept {
     // x is the root in [0, 1] of (b - a) x^2 / 2 + a x = part (a + b) / 2.
     const double both = part * (a + b);

@@ -56,8 +56,8 @@ struct LightSampleT {
     /// End of the shadow ray. Its error bound is 0 unless the point lies on a surface.
     SurfacePointT<T> point{};
     Vec3T<T> wi{T(0)}; ///< Unit direction to the light.
-    /// For a light that paths can hit: radiance over pdf. For a point or spot light:
-    /// intensity over squared distance. For a sun: irradiance.
+    /// Radiance over pdf for a light that paths can hit. Intensity over squared
+    /// distance for a point or spot light. Irradiance for a sun.
     RgbT<T> weight{T(0)};
     T pdf = T(0); ///< Density of `wi` per steradian; 0 if no path can hit the light.
 };
@@ -66,8 +66,8 @@ struct LightSampleT {
 template <std::floating_point T>
 struct ArrivalT {
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel.
-    /// W/m^2 on a perpendicular surface. If the direction was sampled, this is the
-    /// radiance over the density of the direction.
+    /// Irradiance of a perpendicular surface, in W/m^2. If the direction was sampled,
+    /// this is the radiance over the density of the direction.
     RgbT<T> irradiance{T(0)};
 };
 
@@ -122,9 +122,9 @@ template <std::floating_point T, typename Intensity>
 
 } // namespace detail
 
-/// Prepares a light for its scene. A light that needs no preparation is stored
-/// unchanged, by this function. A sun has its own in_scene(), which adds the sphere
-/// around the scene.
+/// Prepares a light for its scene. This function serves lights that need no
+/// preparation, and returns the light itself. A sun has its own in_scene(), which adds
+/// the sphere around the scene.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;
@@ -215,8 +215,8 @@ template <Light L>
 // clang-format on
 }
 
-/// A cone that contains all directions into which a point of a light emits. Without
-/// emission_cone() it is the whole sphere.
+/// A cone that contains all directions into which a point of a light emits. If the
+/// light has no emission_cone(), the cone is the whole sphere.
 template <typename L, typename Point>
 [[nodiscard]] ConeT<typename L::Scalar> cone_of_emission(const L& light,
                                                          const Point& point) {

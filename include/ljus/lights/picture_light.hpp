@@ -25,11 +25,11 @@ namespace ljus {
 /// proportion to the brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
-    using Scalar = T;            ///< The precision of its numbers.
-    QuadT<T> frame{};            ///< The quad, or the square around the disc.
-    Vec3T<T> normal{T(0)};       ///< Unit normal on the side that shines.
-    bool round = false;          ///< True for a disc: only the circle shines.
-    ImageT<T> picture{};         ///< The radiance in W/(m^2 sr).
+    using Scalar = T;      ///< The precision of its numbers.
+    QuadT<T> frame{};      ///< The quad, or the square around the disc.
+    Vec3T<T> normal{T(0)}; ///< Unit normal on the side that shines.
+    bool round = false;    ///< True for a disc: the corners of the square do not shine.
+    ImageT<T> picture{};   ///< The radiance in W/(m^2 sr).
     PiecewiseConstant2D cells{}; ///< The brightness of each pixel; 0 outside a disc.
     double pixel_area = 0;       ///< The area of a pixel, in squared scene units.
     RgbT<T> flux{T(0)};          ///< The flux in W.
@@ -85,7 +85,7 @@ template <std::floating_point T>
 /// Makes a textured lamp.
 /// \param shape       A quad or a disc.
 /// \param picture     The picture. Its colours are factors of the radiance.
-/// \param radiance    W/(m^2 sr).
+/// \param radiance    The emitted radiance in W/(m^2 sr) where the picture is white.
 /// \param inside_out  True if the lamp shines on the side opposite to the normal.
 /// \throws std::invalid_argument  if no pixel shines, or if the shape is not a quad or
 ///         a disc.

@@ -91,7 +91,8 @@ template <std::floating_point T>
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
 
-/// Samples a photon's angle to the axis, in proportion to the flux.
+/// Samples a photon's angle to the axis. The density of an angle is proportional to the
+/// flux emitted at this angle.
 /// \param u  In [0, 1).
 /// \return 1 - cos of the angle, within [0, light.outer].
 // [sample_spot]

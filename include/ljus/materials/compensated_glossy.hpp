@@ -22,9 +22,10 @@ namespace ljus {
 /// \tparam Facet  As for GlossyT.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
-    using Scalar = T;              ///< The precision of its numbers.
-    GlossyT<T, Facet> first{};     ///< The lobe of light that meets one facet.
-    detail::EnergyLossT<T> loss{}; ///< The loss of `first`, by bake_energy_loss().
+    using Scalar = T;          ///< The precision of its numbers.
+    GlossyT<T, Facet> first{}; ///< The lobe of light that meets one facet.
+    /// The energy that `first` loses: a table from bake_energy_loss().
+    detail::EnergyLossT<T> loss{};
     RgbT<T> mean{T(0)}; ///< Mean reflectance of a facet, from mean_reflectance().
 };
 /// CompensatedGlossyT in float, with a colour as the reflectance.
@@ -35,7 +36,8 @@ using FullRoughMetal = CompensatedGlossyT<float, ConductorIndexT<float>>;
 namespace detail {
 
 /// The mean of the reflectance F of a facet over all angles,
-/// \f$ 2 \int_0^1 F(\mu)\,\mu\,d\mu \f$, where mu is the cosine.
+/// \f$ 2 \int_0^1 F(\mu)\,\mu\,d\mu \f$, where mu is the cosine of the angle between
+/// the light and the normal of the facet.
 template <std::floating_point T, typename Facet>
 [[nodiscard]] RgbT<T> mean_reflectance(const Facet& facet) noexcept {
     constexpr int steps = 256; // equal steps of mu^2 have equal weights
@@ -47,7 +49,8 @@ template <std::floating_point T, typename Facet>
 
 } // namespace detail
 
-/// Adds multiple scattering to a rough mirror, by a table that exists already.
+/// Adds multiple scattering to a rough mirror, with a table that has been computed
+/// before.
 /// \param first  The rough mirror.
 /// \param loss   The table, from bake_energy_loss() or from another material of the
 ///               same roughness. It is checked when the material is added to a scene.
@@ -100,7 +103,7 @@ template <std::floating_point T, typename F>
 namespace detail {
 
 /// The probability with which sample() chooses the lobe of one reflection: that lobe's
-/// part of the reflected light.
+/// fraction of the reflected light.
 /// \return In [0, 1]; 1 where nothing is lost.
 template <std::floating_point T, typename F>
 [[nodiscard]] T first_probability(const CompensatedGlossyT<T, F>& gloss,

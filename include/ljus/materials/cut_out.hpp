@@ -54,7 +54,8 @@ requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
 }
 
 /// Checks the mask and the cutoff.
-/// \throws std::invalid_argument  naming the member.
+/// \throws std::invalid_argument  if a member is not valid; the message names the
+///         member.
 template <typename Texture>
 void check(const Holes<Texture>& holes) {
     check(holes.mask);

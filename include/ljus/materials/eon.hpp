@@ -33,10 +33,10 @@ using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The fraction of light that Fujii's second model loses at an angle, divided by A r:
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here mu is the cosine of the angle,
-/// E the fraction of light that a white surface reflects, r the roughness, k_1 the
-/// constant fon_constant, and A = 1/(1 + k_1 r). The code computes G.
+/// The loss of light of Fujii's second model,
+/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
+/// that a white surface reflects, mu the cosine of the angle to the normal, and r the
+/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
 /// \return At least 0, at most k_1.
 /// \cite eon2025
 // [eon loss]
@@ -57,8 +57,8 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
 /// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
-/// \ref multiple_scattering. The factor A r of the losses is cancelled, so that a
-/// roughness of 0 needs no special case.
+/// \ref multiple_scattering. The factor A r, by which eon_loss() divides, cancels. A
+/// roughness of 0 therefore needs no special case.
 /// \param wo, wi   Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.
@@ -79,9 +79,9 @@ template <std::floating_point T>
 
 /// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
 /// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
-/// directions to directions whose density is nearly proportional to f times the cosine.
-/// The x axis points along the azimuth of wo. The four numbers are a fit, listing 2 of
-/// \cite eon2025.
+/// directions to directions whose density is nearly proportional to the BRDF times the
+/// cosine. The x axis points along the azimuth of wo. The entries a, b, c and d are
+/// fitted, in listing 2 of \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
     T a;            ///< The entry a of M.
@@ -89,7 +89,7 @@ struct EonLobeT {
     T c;            ///< The entry c of M.
     T d;            ///< The entry d of M, at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
-    T uniform;      ///< The probability of a uniform direction instead of the lobe.
+    T uniform;      ///< The probability of a uniform direction, not from the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 
@@ -187,8 +187,8 @@ template <std::floating_point T>
                                 Vec3T<T>{wi.x, wi.y, std::abs(wi.z)});
 }
 
-/// Samples a direction with a density nearly proportional to f times the cosine to the
-/// normal.
+/// Samples a direction with a density nearly proportional to the BRDF times the cosine
+/// to the normal.
 /// \cost About three times that of a cosine-weighted direction.
 /// \cite eon2025
 template <std::floating_point T>

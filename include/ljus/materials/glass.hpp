@@ -49,8 +49,9 @@ struct GlassBoundaryT {
     T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
 };
 
-/// Divides the light for the outgoing direction `wo`; z < 0 is inside the glass.
-/// \cost Three square roots, three divisions; F is not evaluated in total reflection.
+/// Divides the light for the outgoing direction `wo`. If wo.z < 0, `wo` is inside the
+/// glass.
+/// \cost Three square roots and three divisions; fewer in total internal reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,
@@ -85,8 +86,8 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
 
-/// Returns both directions with their weights, for a path that splits in two. The noise
-/// of a random choice between them vanishes.
+/// Returns both directions with their weights, for a path that splits in two. Such a
+/// path is free of the noise of a random choice between the directions.
 /// \return The reflected and the refracted sample; nothing in total internal
 ///         reflection.
 template <std::floating_point T>
@@ -161,7 +162,8 @@ struct PaneFractionsT {
 ///
 /// with a = tint^(1/c), where c is the cosine of the angle inside the glass. There is
 /// no interference, because a pane is thicker than the coherence length of light.
-/// \param cos_theta  Cosine between ray and normal outside, in [0, 1].
+/// \param cos_theta  Cosine of the angle between ray and normal outside the glass, in
+///                   [0, 1].
 /// \return Reflectance and transmittance. Without a tint their sum is 1.
 /// \cost That of fresnel(), and one square root; three powers if there is a tint.
 // [pane]

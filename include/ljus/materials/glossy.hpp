@@ -95,7 +95,7 @@ template <std::floating_point T, typename F>
 // [glossy]
 
 /// The density of sample().
-/// \return D/(2 (wo.z + r(wo))) per steradian on the side of `wo`, with the letters of
+/// \return D/(2 (wo.z + r(wo))) per steradian on the side of `wo`, with D and r as in
 ///         evaluate(); 0 elsewhere. The integral is below 1, because sample() rejects
 ///         directions that point into the surface.
 /// \cite heitz2018

@@ -47,8 +47,8 @@ namespace ljus {
 /// \{
 
 /// A set of lobes. A *specular* lobe scatters into a single direction (a delta). All
-/// other lobes, even glossy ones, have an f and a pdf, and count as D in Heckbert's
-/// notation.
+/// other lobes, even glossy ones, have a finite BSDF and a pdf, and count as D in
+/// Heckbert's notation.
 enum class Lobes : std::uint8_t {
     none = 0,         ///< No lobe.
     diffuse = 1,      ///< Scatters into all directions.
@@ -87,7 +87,7 @@ enum class Transport : std::uint8_t {
 template <std::floating_point T>
 struct BsdfSampleT {
     Vec3T<T> wi{T(0), T(0), T(1)}; ///< Incident direction; unit vector.
-    RgbT<T> weight{T(0)}; ///< f |cos|/pdf: the factor of the path's throughput.
+    RgbT<T> weight{T(0)};          ///< The factor of the throughput: f |wi.z| / pdf.
     /// Density per steradian, including the probability of the lobe; 0 for a delta.
     T pdf = T(0);
     bool specular = false; ///< True if `wi` is sampled from a delta lobe.
@@ -116,7 +116,7 @@ specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) no
 
 /// A sample of a lobe with a density.
 /// \param wi       Incident direction.
-/// \param weight   f |cos|/pdf.
+/// \param weight   The factor of the throughput: f |wi.z| / pdf.
 /// \param density  Per steradian, including the probability of the lobe.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
@@ -229,15 +229,15 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. Its material_at() returns a material with a member
-/// `index`.
+/// 0 if m happens to be opaque. For such a material, material_at() returns a material
+/// with a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
 };
 
-/// The material of a body that touches another body instead of air: its index becomes
-/// relative to that of the other body.
+/// A copy of a material, for a body that touches another body instead of air. The index
+/// of the copy is relative to the index of the other body.
 /// \param m        The material.
 /// \param outside  Index of refraction of the other body.
 template <Refractive M>
@@ -406,8 +406,8 @@ template <Material M>
 /// \}
 
 /// \defgroup cosine_lobe Sampling matt surfaces
-/// \brief Section 3.2.4: cosine-weighted sampling, which suits every f that is close to
-/// a constant.
+/// \brief Section 3.2.4: cosine-weighted sampling, which suits every BRDF that is close
+/// to a constant.
 /// \{
 
 /// The density of sample_cosine_lobe().
@@ -430,9 +430,9 @@ template <std::floating_point T>
 /// \param wo     Outgoing direction, a unit vector in the surface's frame.
 /// \param u      Point of [0,1)^3; z is not used.
 /// \param which  The lobes to sample from.
-/// \return The sample with a weight of 1, which is right for f = 1/pi. A caller with
-///         another f sets the weight to pi f. Nothing if `wo` is parallel to the
-///         surface, or if `which` lacks Lobes::diffuse.
+/// \return The sample with a weight of 1, which is right for the BRDF 1/pi. A caller
+///         with another BRDF f sets the weight to pi f. Nothing if `wo` is parallel to
+///         the surface, or if `which` lacks Lobes::diffuse.
 /// \cost One sine, one cosine, one square root.
 /// \report{Section 3.2.4}
 template <std::floating_point T>

@@ -41,7 +41,7 @@ struct MixtureT {
     T transparency = T(0);    ///< Transmitted fraction of entering light, in [0, 1].
     T index = T(1.5);         ///< Index of refraction inside.
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
-    T emissivity = T(0);      ///< Emitted radiance over color, in W/(m^2 sr), >= 0.
+    T emissivity = T(0);      ///< Emitted radiance / color, in W/(m^2 sr), >= 0.
     T sigma = T(0);           ///< Roughness of the matt lobe, in radians; 0: Lambert.
     RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
@@ -106,8 +106,9 @@ lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
 
 } // namespace detail
 
-/// f of the matt lobe. The factor 1 - F appears twice, for `wi` and for `wo`, because
-/// light crosses the boundary on its way in and on its way out.
+/// The BRDF of the matt lobe. The factor 1 - F, where F is the boundary_reflectance(),
+/// appears twice, for `wi` and for `wo`, because light crosses the boundary on its way
+/// in and on its way out.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [mixture]
@@ -125,8 +126,8 @@ template <std::floating_point T>
 // [mixture]
 
 /// The density of sample().
-/// \return |cos(theta)|/pi per steradian times the probability of the matt lobe, on the
-///         side of `wo`; 0 elsewhere.
+/// \return |wi.z|/pi per steradian times the probability of the matt lobe, on the side
+///         of `wo`; 0 elsewhere.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -137,8 +138,8 @@ template <std::floating_point T>
 
 /// Samples one direction. u.z chooses a lobe in proportion to the lobe's fraction of
 /// the light, so that the weight is the sum of all fractions. The weight of the matt
-/// lobe has three more factors: the colour over its brightest channel, 1 - F for `wi`,
-/// and oren_nayar_ratio().
+/// lobe has three more factors: the colour over its brightest channel, 1 minus the
+/// boundary_reflectance() for `wi`, and oren_nayar_ratio().
 /// \return The sample. Its pdf is above 0 unless it is specular.
 /// \cost One call of fresnel() for `wo`; for the matt lobe, another one for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
@@ -175,7 +176,7 @@ sample(const MixtureT<T>& mixture, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(reflect(wo), RgbT<T>{sum});
 }
 
-/// The index of refraction inside; 0 without transparency.
+/// The index of refraction inside; 0 if the material is opaque.
 template <std::floating_point T>
 [[nodiscard]] constexpr T refractive_index(const MixtureT<T>& mixture) noexcept {
     return mixture.transparency > T(0) ? mixture.index : T(0);

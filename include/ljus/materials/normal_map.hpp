@@ -11,8 +11,8 @@ namespace ljus {
 /// \brief Dents and grooves that change the shading but not the shape \cite blinn1978.
 /// Chapter: \ref ch_textures.
 ///
-/// The picture turns only the shading normal. The geometric normal stays that of the
-/// shape, and so do outlines and shadows. Chapter \ref ch_shading_normals explains how
+/// The picture turns only the shading normal. The geometric normal, the outlines and
+/// the shadows remain those of the shape. Chapter \ref ch_shading_normals explains how
 /// light and photons are scattered where the two normals differ.
 /// \{
 
@@ -49,7 +49,7 @@ requires NormalMapped<Base>
 }
 
 /// Checks the picture.
-/// \throws std::invalid_argument  naming the member.
+/// \throws std::invalid_argument  if the picture is not valid.
 template <std::floating_point T>
 void check(const NormalMapT<T>& map) {
     check(map.picture);

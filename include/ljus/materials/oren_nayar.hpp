@@ -58,8 +58,8 @@ template <std::floating_point T>
 ///
 /// Here sigma is the roughness, phi_i and phi_o are the azimuths of wi and wo, alpha is
 /// the larger of their angles to the normal, and beta the smaller. The code computes no
-/// angles: the cosine of the azimuths times both sines is x_i x_o + y_i y_o, and a
-/// division by the larger cosine turns the sine of beta into its tangent.
+/// angles: the product of cos(phi_i - phi_o), sin(alpha) and sin(beta) is wi.x wo.x +
+/// wi.y wo.y, and a division by the larger cosine turns sin(beta) into tan(beta).
 /// \param sigma   Roughness in radians, in [0, 1000].
 /// \param wo, wi  Unit vectors on the same side.
 /// \return At least 1/2. Where both directions graze, up to 3e13 in float.
@@ -80,7 +80,8 @@ template <std::floating_point T>
 
 /// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). The model leaves out the
 /// light that facets send to each other, so that a white surface loses light at most
-/// angles. At grazing angles it reflects up to 1.5 percent more light than it receives.
+/// angles. At grazing angles a white surface reflects up to 1.5 percent more light than
+/// it receives.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>

@@ -59,7 +59,7 @@ template <std::floating_point T>
 }
 
 /// The parts of a BRDF that are due to one and to two reflections between facets. The
-/// BRDF is (single albedo + twice albedo^2)/pi.
+/// BRDF is (`single` * albedo + `twice` * albedo^2)/pi.
 template <std::floating_point T>
 struct RoughRatiosT {
     T single{}; ///< The ratio for light reflected once.
@@ -74,8 +74,9 @@ struct RoughRatiosT {
 ///     \quad 0.17 \frac{\sigma^2}{\sigma^2 + 0.13}
 ///     \left(1 - \cos\phi \left(\frac{2\beta}{\pi}\right)^2\right) \f]
 ///
-/// where alpha is the larger of the angles of wi and wo to the normal, beta the
-/// smaller, and phi the angle between the azimuths. The code gives C_1, C_2 and C_3.
+/// where sigma is the roughness in radians, alpha the larger of the angles of wi and wo
+/// to the normal, beta the smaller, and phi the angle between the azimuths. The code
+/// gives C_1, C_2 and C_3.
 /// \return Both ratios. For grazing directions from opposite sides the terms cancel,
 ///         and `single` has no correct digits and may be negative.
 /// \cost Two arc tangents, nine divisions.
@@ -107,8 +108,8 @@ template <std::floating_point T>
 }
 // [full]
 
-/// Fujii's term s/t. Here s is the product of three factors: the sines of the two
-/// angles to the normal, and the cosine of the angle between the azimuths. If s is
+/// Fujii's term s/t. Here s is the product of three factors: the sines of the angles of
+/// wo and wi to the normal, and the cosine of the angle between their azimuths. If s is
 /// positive, t is the larger of the two cosines to the normal, otherwise 1.
 /// \return At least -1.
 // [fujii]

@@ -24,7 +24,7 @@ namespace ljus {
 /// \f[ h = \pm\frac{\eta\, w_o + w_i}{L}, \qquad L = |\eta\, w_o + w_i| \f]
 ///
 /// where \f$ \eta = n_o/n_i \f$ is the ratio of the indices on the sides of w_o and of
-/// w_i, which is 1 for a reflection.
+/// w_i. For a reflection, both directions are on one side, and the ratio is 1.
 ///
 /// The lobe has a density, so that rough glass counts as D in Heckbert's notation. A
 /// shadow ray that meets rough glass is blocked. From a vertex on rough glass, shadow
@@ -80,10 +80,10 @@ template <std::floating_point T>
     return {glass.index, T(1)};
 }
 
-/// The density with which sample() chooses the incident direction `in`. It is a product
-/// of three factors: the density of the facet h among the facets visible from `out`;
-/// the probability F of reflection or 1 - F of refraction; and the Jacobian from facets
-/// to directions, 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
+/// The density with which sample() chooses the incident direction `in`. The density of
+/// the facet h among the facets visible from `out` is multiplied by the probability of
+/// reflection or of refraction, and by the Jacobian from facets to directions. The
+/// Jacobian is 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
 /// \ref rough_glass.
 /// \param alpha    The parameter of GGX.
 /// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
@@ -111,10 +111,10 @@ template <std::floating_point T>
 }
 // [joined]
 
-/// The fraction of the light along `in` that no facet blocks, divided by |in.z|. For
-/// reflection the fraction is G2/G1(out) with correlated heights, as for GlossyT. For
-/// refraction it is G1(in), because heights on the two sides are taken as independent
-/// \cite walter2007.
+/// The fraction of the light along `in` that no facet blocks, divided by |in.z|. The
+/// functions G1 and G2 are those of \ref microfacet. For reflection the fraction is
+/// G2/G1(out) with correlated heights, as for GlossyT. For refraction it is G1(in),
+/// because heights on the two sides are taken as independent \cite walter2007.
 /// \param alpha    The parameter of GGX.
 /// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
 template <std::floating_point T>
@@ -155,8 +155,8 @@ template <std::floating_point T>
 /// \f[ f = \frac{|w_o \cdot h|\,|w_i \cdot h|}{|w_{o,z}|\,|w_{i,z}|}\,
 ///         \frac{\eta^2 (1 - F)\, D(h)\, G_1(w_o)\, G_1(w_i)}{L^2} \f]
 ///
-/// with h, L and eta as on top of this page, \ref rough_glass, and with D and G_1 of
-/// \ref microfacet. Refraction is not symmetric in the two directions:
+/// with h, L and eta of \ref rough_glass, and with D and G_1 of \ref microfacet.
+/// Refraction is not symmetric in the two directions:
 /// \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
 /// \return f in 1/sr, without the cosine; 0 at grazing angles where f would overflow.
 /// \cost Four square roots, including those of fresnel() and of normalisation.

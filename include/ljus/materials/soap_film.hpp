@@ -27,7 +27,8 @@ enum class FilmColor : std::uint8_t {
 };
 
 /// A soap film in air. Its thickness falls with the height z, as in films that hang
-/// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$.
+/// under their own weight \cite pasquet2022 : \f$ d(z) = d_0\, e^{-z/h} \f$, where d_0
+/// is `thickness` and h is `scale`.
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T; ///< The precision of its numbers.
@@ -68,7 +69,7 @@ template <std::floating_point T>
 
 /// The reflectance of a film.
 /// \param film       The film.
-/// \param cos_theta  Cosine between ray and normal, of either sign.
+/// \param cos_theta  Cosine of the angle between ray and normal, of either sign.
 /// \param thickness  In nm.
 /// \return For each channel, in [0, 1].
 template <std::floating_point T>

@@ -11,8 +11,9 @@ namespace ljus {
 /// \defgroup textured Textured materials
 /// \brief Materials whose colour, holes or normals vary over the surface.
 ///
-/// Renderers call material_at(). For a textured material it calls at_point(), which
-/// returns the base in the colour of the point. The base may be textured itself.
+/// Renderers call material_at(). For a textured material, material_at() calls
+/// at_point(), which multiplies the base by the colour of the texture at the point. The
+/// base may be textured itself.
 /// \{
 
 /// A material whose colour is multiplied by that of a texture. Holes or a NormalMap in
@@ -100,7 +101,8 @@ emission(const Textured<Base, Texture>& m) noexcept {
 /// \}
 
 /// Checks the base and the texture.
-/// \throws std::invalid_argument naming the member.
+/// \throws std::invalid_argument if a member is not valid; the message names the
+///         member.
 template <typename Base, typename Texture>
 void check(const Textured<Base, Texture>& textured) {
     check(textured.base);

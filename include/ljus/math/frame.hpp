@@ -9,7 +9,7 @@ namespace ljus {
 
 /// \defgroup frame Frames
 /// \brief Materials and samplers work with z along the normal; a frame converts to and
-/// from that system.
+/// from that coordinate system.
 /// \{
 
 /// Three orthonormal vectors; `normal` is the local z axis.

@@ -18,9 +18,9 @@ namespace ljus {
 namespace detail {
 
 /// \defgroup lanes Lanes
-/// \brief Eight numbers in loops of constant length, which compilers turn into vector
-/// instructions. Compilers fail to do so if the body of a loop is long, chooses between
-/// products, or shifts each lane by a different number of bits.
+/// \brief Loops over eight numbers, which compilers turn into vector instructions.
+/// Compilers do not succeed if the body of a loop is long, chooses between products, or
+/// shifts each lane by a different number of bits.
 /// \{
 
 inline constexpr int lane_count = 8;

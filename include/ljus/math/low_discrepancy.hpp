@@ -29,7 +29,7 @@ using SobolTable = std::array<std::array<std::uint32_t, 32>, sobol_dimensions>;
 
 /// Computes the direction numbers at compile time, by the recurrence of Joe and Kuo
 /// \cite joe2008. Each dimension has a primitive polynomial, given by its degree s and
-/// its inner coefficients a, and s odd numbers m.
+/// the bits a of its inner coefficients. Each dimension also has s odd numbers m.
 [[nodiscard]] constexpr SobolTable make_sobol_table() noexcept {
     struct Seed {
         unsigned s, a, m[6];
@@ -128,7 +128,7 @@ struct SobolStream {
 
 /// The stream of one path.
 /// \param seed       The user's seed.
-/// \param pass       The pass that draws.
+/// \param pass       The pass that draws the numbers.
 /// \param iteration  The repetition of the pass; each has its own scrambling.
 /// \param path       The path's number in the pass. The scrambling changes after each
 ///                   2^32 paths.

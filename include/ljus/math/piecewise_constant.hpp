@@ -21,10 +21,12 @@ namespace ljus {
 /// Cumulative sums of the weights of a grid's cells, for sample_cell(). They are
 /// double, because one cell may weigh 1e9 times as much as its neighbours.
 struct PiecewiseConstant2D {
-    int width = 0;            ///< Cells per row.
-    int height = 0;           ///< Number of rows.
-    std::vector<double> rows; ///< For each row, the weight of all rows up to this row.
-    /// For each cell, the weight of all cells of the row up to this cell.
+    int width = 0;  ///< Cells per row.
+    int height = 0; ///< Number of rows.
+    /// For each row, the sum of all weights in this row and in earlier rows.
+    std::vector<double> rows;
+    /// For each cell, the sum of its weight and of the weights of earlier cells in its
+    /// row.
     std::vector<double> cells;
 };
 

@@ -84,9 +84,10 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between a and b, where p has opposite signs. The function makes steps of
-/// Newton's method. If such a step would leave the interval, or would be more than half
-/// as long as the last step, the interval is bisected instead.
+/// The root between a and b of a polynomial p that has opposite signs at a and at b.
+/// The function makes steps of Newton's method. If such a step would leave the
+/// interval, or would be more than half as long as the last step, the interval is
+/// bisected instead.
 /// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]
@@ -122,11 +123,10 @@ struct RootsT {
     void add(T root) noexcept { at[count++] = root; }
 };
 
-/// All roots of a polynomial p in [0, 1].
-/// Between two neighbouring roots of its derivative, p is monotone. It has one root
-/// there if its signs at the two ends differ, and otherwise none. The roots of the
-/// derivative are found in the same way, down to degree 1 \cite yuksel2022. The leading
-/// coefficient may be tiny or 0.
+/// All roots of a polynomial p in [0, 1]. Between two neighbouring roots of its
+/// derivative, p is monotone. In this interval p has one root if its signs at the two
+/// ends differ, and otherwise none. The roots of the derivative are found in the same
+/// way, down to degree 1 \cite yuksel2022. The leading coefficient may be tiny or 0.
 /// \param p          The polynomial, with finite coefficients.
 /// \param tolerance  The error of the coefficients. An extremum of p or an end of [0,
 ///                   1] counts as a root if |p| is at most `tolerance` there.

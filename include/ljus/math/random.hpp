@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/math/random.hpp
-/// \brief Random numbers that depend on where they are used, not on the drawing order.
+/// \brief Random numbers that depend on where they are used, not on the order in which
+/// they are drawn.
 
 #include <cstdint>
 
@@ -10,8 +11,8 @@
 namespace ljus {
 
 /// \defgroup random Random streams
-/// \brief Counter-based streams: a number depends on its key and index only, so that
-/// the same seed gives the same picture on any number of threads.
+/// \brief Counter-based streams: a number depends only on the key of its stream and on
+/// its index, so that the same seed gives the same picture on any number of threads.
 /// \{
 
 /// The passes that draw numbers; each has its own streams.
@@ -42,7 +43,7 @@ struct RandomStream {
 
 /// The stream of one path.
 /// \param seed       The user's seed.
-/// \param pass       The pass that draws.
+/// \param pass       The pass that draws the numbers.
 /// \param iteration  The repetition of the pass, for progressive methods.
 /// \param path       The path's number in the pass.
 /// \return A stream at bounce 0, dimension 0.

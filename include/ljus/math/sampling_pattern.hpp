@@ -28,8 +28,9 @@ struct Strata {
 /// Chooses the grid for a number of rays. It has one cell per ray, and the cells are as
 /// square as possible. If the grid would have more than four times as many rows as
 /// columns, as for a prime above 4, the function chooses n rooks.
-/// \erratum{The report's program steps by 1/sqrt(n) and drops the remainder: of 8 rays
-///          it traced 4, and of 10 it traced 9 in nine tenths of the pixel.}
+/// \erratum{The report's program steps by 1/sqrt(n) for n rays and drops the remainder.
+///          It traced 4 of 8 rays. It traced 9 of 10 rays, all of them in nine tenths
+///          of the pixel.}
 [[nodiscard]] constexpr Strata strata_for(int rays) noexcept {
     int columns = 1;
     for (int i = 1; i <= rays / i; ++i)
@@ -101,22 +102,23 @@ template <std::floating_point T>
 /// the pattern does not change the mean of a pixel.
 enum class Sampling : std::uint8_t {
     random, ///< Independent points.
-    /// One point in each cell of a grid. If the grid would be too long and narrow, one
-    /// point in each of n columns and in each of n rows.
+    /// One point in each cell of a grid. If the grid would be too long and narrow, each
+    /// of n columns and each of n rows has one point.
     jittered,
-    multi_jittered, ///< Jittered, with one point in each of n strips along x and y.
-    sobol           ///< Sobol points with Owen's scrambling.
+    /// Jittered, and each of n strips along x and of n strips along y has one point.
+    multi_jittered,
+    sobol ///< Sobol points with Owen's scrambling.
 };
 
 /// A pattern for one number of points, made by make_pattern().
 struct Pattern {
-    Sampling sampling = Sampling::multi_jittered; ///< The kind of pattern.
+    Sampling sampling = Sampling::multi_jittered; ///< How the points are spread.
     int points = 1;                               ///< The number of points.
     detail::Strata strata{};                      ///< The cells of a jittered pattern.
 };
 
 /// Makes a pattern.
-/// \param sampling  The kind of pattern.
+/// \param sampling  How the points are spread.
 /// \param points    The number of points, at least 1.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};

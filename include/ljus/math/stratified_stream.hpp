@@ -24,7 +24,7 @@ struct StratifiedStream {
     int ray = 0;           ///< The ray's number, in [0, pattern.points).
     std::uint64_t key = 0; ///< A random number that is the same in all rays of a pixel.
     std::uint64_t dimension = 0; ///< The index of the next draw.
-    RandomStream rest{};         ///< Gives the positions within cells.
+    RandomStream rest{};         ///< The stream of the positions within cells.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
@@ -65,8 +65,8 @@ namespace detail {
                     static_cast<std::uint32_t>(stream.pattern.points), key);
 }
 
-/// Whether the numbers of a ray do not depend on other rays: the pixel has no other
-/// ray, or the pattern has no cells.
+/// Whether the numbers of a ray are independent of other rays: the pixel has only one
+/// ray, or the pattern is Sampling::random.
 [[nodiscard]] constexpr bool independent(const StratifiedStream& stream) noexcept {
     return stream.pattern.points == 1 || stream.pattern.sampling == Sampling::random;
 }

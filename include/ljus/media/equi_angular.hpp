@@ -19,19 +19,21 @@ namespace ljus {
 /// The angles at which a light sees the points of a ray \cite kulla2012.
 template <std::floating_point T>
 struct EquiAngularT {
-    SpanT<T> span{};  ///< The part of the ray.
-    T nearest = T(0); ///< t of the point of the line that is nearest to the light.
-    T away = T(1);    ///< Distance of this nearest point from the light.
-    /// Angle from the nearest point to the start of the span, in radians.
+    SpanT<T> span{};  ///< The interval of t from which points are sampled.
+    T nearest = T(0); ///< The t at which the ray's line is nearest to the light.
+    T away = T(1);    ///< Distance of the light from the ray's line.
+    /// Angle from the nearest point to the start of the span as seen from the light, in
+    /// radians.
     T first = T(0);
-    T opening = T(0); ///< Angle from the start to the end of the span, in radians.
+    /// Angle from the start to the end of the span as seen from the light, in radians.
+    T opening = T(0);
 };
 
 /// Prepares equi-angular sampling. A light on the ray would attract all points. The
 /// distance between light and ray therefore counts as at least a thousandth of the
 /// length of the span.
 /// \param ray    The ray, with a unit direction.
-/// \param span   The part of the ray; finite.
+/// \param span   The interval of t from which points are sampled; finite.
 /// \param light  Position of the light.
 // [equi angular]
 template <std::floating_point T>
@@ -57,7 +59,7 @@ template <std::floating_point T>
     return std::clamp(t, angles.span.first, angles.span.last);
 }
 
-/// The density of sample_equi_angular(), per scene unit.
+/// The density of sample_equi_angular(), per scene unit along the ray.
 template <std::floating_point T>
 [[nodiscard]] T pdf_equi_angular(const EquiAngularT<T>& angles, T t) noexcept {
     const T off = t - angles.nearest;

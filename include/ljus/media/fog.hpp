@@ -20,13 +20,14 @@ namespace ljus {
 
 namespace detail {
 
-/// The scalar type of a region, BoxT<T> or SphereT<T>. Only its return type is used.
+/// The scalar type of a region, BoxT<T> or SphereT<T>. Only the return type of this
+/// function is used.
 template <template <std::floating_point> typename Region, std::floating_point T>
 T precision_of(const Region<T>&);
 
 } // namespace detail
 
-/// Fog in a sphere or in a box. It has the same coefficients everywhere in its region.
+/// Fog in a sphere or in a box. The coefficients are the same everywhere in the region.
 /// A region that is larger than a room fills the room.
 ///
 ///     Scene<Shapes<Quad>, Materials<Lambertian>, Lights<>, Media<Fog<Box>>> scene;
@@ -40,13 +41,14 @@ struct Fog {
     Region region{}; ///< The space that the fog fills, in scene units.
     RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
     RgbT<Scalar> scattering{Scalar(0)}; ///< Coefficient sigma_s, per scene unit.
-    Scalar g = Scalar(0); ///< Mean cosine of scattering; see henyey_greenstein().
+    /// Mean cosine of the angle of scattering; see henyey_greenstein().
+    Scalar g = Scalar(0);
 };
 
 /// \name Regions
 /// \{
 
-/// The part of a ray in a sphere.
+/// The interval of t in which a ray is inside a sphere.
 /// \return Nothing if the ray misses the sphere or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
@@ -64,7 +66,7 @@ template <std::floating_point T>
     return span;
 }
 
-/// The part of a ray in a box.
+/// The interval of t in which a ray is inside a box.
 /// \return Nothing if the ray misses the box or only touches it.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
@@ -139,11 +141,11 @@ template <typename Region>
     return bounds_of(fog.region);
 }
 
-/// The part of a ray in the fog.
+/// The interval of t in which a ray is inside the fog.
 /// \param fog  The fog.
 /// \param ray  The ray. Its direction may have any length above 0.
-/// \return The part within [t_min, t_max] of the ray; nothing if the ray misses the
-///         fog.
+/// \return The interval, within [t_min, t_max] of the ray; nothing if the ray misses
+///         the fog.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {

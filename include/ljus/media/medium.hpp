@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/media/medium.hpp
-/// \brief The interface of a medium that fills a part of space.
+/// \brief The interface of a medium that fills a region of space.
 
 #include <concepts>
 #include <optional>
@@ -26,18 +26,18 @@ namespace ljus {
 /// |---------------------------------|-----------------------------------------------|
 /// | check(medium)                   | nothing; throws, and names the wrong member   |
 /// | bounds(medium)                  | a box around the medium                       |
-/// | span_in(medium, ray)            | the part of the ray in it, a SpanT, or nothing|
+/// | span_in(medium, ray)            | the interval of t in it, a SpanT, or nothing  |
 /// | extinction(medium)              | absorption plus scattering, per scene unit    |
 /// | scattering(medium)              | scattering alone, per scene unit              |
 /// | phase(medium, cosine)           | the phase function, per steradian             |
 /// | sample_phase(medium, travel, u) | a direction of travel, with density phase()   |
 /// \{
 
-/// A part of a ray.
+/// An interval of the parameter t of a ray.
 template <std::floating_point T>
 struct SpanT {
     T first = T(0); ///< The smallest t, in units of the direction's length.
-    T last = T(0);  ///< The largest t, above the first.
+    T last = T(0);  ///< The largest t, above `first`.
 };
 
 /// A medium. Its functions are described at the top of this page, \ref medium.

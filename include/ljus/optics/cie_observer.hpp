@@ -32,8 +32,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
-/// fitted by seven Gaussians. The fit is within 0.03 of the table, whose values go up
-/// to 1.8.
+/// fitted by seven Gaussians. The fit is within 0.03 of the CIE's table, whose values
+/// go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.
@@ -57,7 +57,7 @@ template <std::floating_point T>
 /// Converts XYZ to linear sRGB. Light of equal energy at all wavelengths, X = Y = Z =
 /// 1, becomes the screen's white (1, 1, 1), so that a surface that reflects all light
 /// looks white. For this purpose X, Y and Z are multiplied by the X, Y and Z of the
-/// screen's white before the matrix of the standard is applied.
+/// screen's white before the matrix of the sRGB standard is applied.
 /// \param xyz  X, Y and Z relative to light of equal energy.
 /// \return Linear sRGB. A pure colour has a negative channel, because no screen can
 ///         show it.
@@ -77,8 +77,8 @@ template <std::floating_point T>
 /// colour is mixed with just enough grey of the same luminance to bring all channels
 /// into [0, 1]. If the channels were clamped instead, the colour would become brighter.
 /// \param c  Linear sRGB.
-/// \return The colour, with each channel in [0, 1] and the luminance of `c`, clamped to
-///         [0, 1].
+/// \return The colour, with each channel in [0, 1]. Its luminance is that of `c`,
+///         clamped to [0, 1].
 // [into_gamut]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {

@@ -25,7 +25,7 @@ namespace ljus {
 template <std::floating_point T>
 struct ConductorIndexT {
     RgbT<T> n{T(1)}; ///< Real part, >= 0.
-    RgbT<T> k{T(0)}; ///< Imaginary part, the extinction, >= 0.
+    RgbT<T> k{T(0)}; ///< Imaginary part, the extinction coefficient, >= 0.
 };
 using ConductorIndex = ConductorIndexT<float>; ///< ConductorIndexT in float.
 

@@ -156,7 +156,7 @@ struct WavelengthTable {
 } // namespace detail
 
 /// The weight of a path with a single wavelength, as a colour. It is the eye's response
-/// to the wavelength over pdf_wavelength().
+/// to the wavelength, divided by pdf_wavelength().
 ///
 /// The response is the wavelength's colour in linear sRGB. Pure light has a negative
 /// channel, which is set to 0. Each channel is then scaled so that a constant spectrum

@@ -27,7 +27,7 @@ struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
     T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
-    /// The part of the whole loss that lies at smaller cosines, from 0 to 1.
+    /// The fraction of the whole loss that lies at smaller cosines.
     std::array<T, cells + 1> below{};
     T mean = T(0); ///< 1 minus the mean of E over the hemisphere.
 };
@@ -160,9 +160,9 @@ template <std::floating_point T = float>
 /// \brief A lobe that returns the energy which a single reflection at a rough surface
 /// loses.
 ///
-/// White facets reflect the fraction E(mu) of light at a cosine mu, and lose 1 - E(mu).
-/// A second, reciprocal lobe is added to the BRDF f_1 of a single reflection and
-/// returns the loss \cite kulla2017 :
+/// White facets reflect the fraction E(mu) of light whose direction has the cosine mu
+/// to the normal, and lose 1 - E(mu). A second, reciprocal lobe is added to the BRDF
+/// f_1 of a single reflection and returns the loss \cite kulla2017 :
 ///
 /// \f[ f = f_1 + \frac{\rho_m}{\pi}
 ///     \frac{(1 - E(\mu_i))\,(1 - E(\mu_o))}{1 - \bar E}, \qquad

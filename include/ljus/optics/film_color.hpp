@@ -21,8 +21,8 @@ namespace ljus {
 /// \param spectrum  Called with a wavelength in nm; returns a value relative to white
 ///                  light.
 /// \param step      Distance between samples, in nm.
-/// \return Linear sRGB, which is (1, 1, 1) for a spectrum of 1. It may be outside the
-///         range of a screen.
+/// \return Linear sRGB, which is (1, 1, 1) for a spectrum that is 1 everywhere. It may
+///         be outside the range of a screen.
 /// \cost 470 nm / step calls, each with seven exponentials.
 // [spectrum color]
 template <std::floating_point T, typename Spectrum>

@@ -16,16 +16,18 @@ namespace ljus {
 
 /// A table of the colours of films of one index n, over the angle of the ray and the
 /// optical path n d cos(theta_t). d is the thickness, and theta_t is the angle inside
-/// the film. The columns are evenly spaced in the square root of the cosine outside,
-/// because the reflectance is steep near grazing incidence. The rows are evenly spaced
-/// in the square root of the path, because fringes fade with longer paths.
+/// the film. The columns are evenly spaced in the square root of the cosine outside the
+/// film, because the reflectance is steep near grazing incidence. The rows are evenly
+/// spaced in the square root of the optical path, because fringes fade with longer
+/// paths.
 template <std::floating_point T>
 struct FilmTableT {
     T index = T(0);   ///< Index of the films; 0 if there is no table.
     int cosines = 0;  ///< Number of columns, for cosines from 0 to 1.
     int paths = 0;    ///< Number of rows, for optical paths from 0 to `longest`.
     T longest = T(0); ///< The optical path above which colours have faded, in nm.
-    /// The colours, in [0, 1]: the rows of the table, then a row of means.
+    /// The colours, in [0, 1]: the rows of the table, then a row with the means over
+    /// all phases.
     std::vector<RgbT<T>> cells{};
     int greyed = 0; ///< Number of cells that into_gamut() has changed.
     T worst = T(0); ///< The most negative channel before into_gamut().
@@ -37,7 +39,7 @@ namespace detail {
 /// The resolution of a table.
 struct FilmTableSize {
     int cosines = 65; ///< Number of cosines, at least 2.
-    /// Number of path lengths, at least 2, without the row of the mean.
+    /// Number of optical paths, at least 2; the row of means is not counted.
     int paths = 641;
     double longest = 4000; ///< The longest optical path, in nm.
 };
@@ -83,7 +85,7 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 /// \param size   The resolution. The default has 42 000 colours, half a megabyte in
 ///               float.
 /// \throws std::invalid_argument  if the index or a size is out of range.
-/// \cost With the default size 10 million samples: about 0.1 s.
+/// \cost With the default size, it takes 10 million samples in about 0.1 s.
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index,
                                             const detail::FilmTableSize& size = {}) {
@@ -127,8 +129,8 @@ template <std::floating_point T = float>
     return table;
 }
 
-/// The colour of a film, interpolated in a table. Beyond the longest path it is the
-/// mean over all phases.
+/// The colour of a film, interpolated in a table. Beyond the longest optical path it is
+/// the mean over all phases.
 /// \param table      The table.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param thickness  In nm, >= 0.

@@ -24,8 +24,8 @@ enum class FresnelModel : std::uint8_t {
 
 namespace detail {
 
-/// Computes ((a - b)/(a + b))^2, in [0, 1]. Where it is more precise, the form 1 -
-/// 4ab/(a + b)^2 is used. a and b are at least 0, and not both 0.
+/// Computes ((a - b)/(a + b))^2, in [0, 1]. The form 1 - 4ab/(a + b)^2 is used where it
+/// is more precise. a and b are at least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;

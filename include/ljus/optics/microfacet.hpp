@@ -12,18 +12,19 @@
 namespace ljus {
 
 /// \defgroup microfacet Microfacets
-/// \brief Section 3.2.4: a rough surface made of small mirrors, between a mirror and a
-/// Lambertian surface.
+/// \brief Section 3.2.4: a rough surface made of small mirrors. It reflects less
+/// sharply than a mirror, and more sharply than a Lambertian surface.
 ///
-/// The distribution of the facets' normals is GGX \cite walter2007. It is that of an
-/// ellipsoid flattened by the factor alpha, the roughness. All directions are unit
-/// vectors in the local frame with z > 0, and alpha > 0.
+/// The distribution of the facets' normals is GGX \cite walter2007. The normals are
+/// distributed as on an ellipsoid flattened by the factor alpha, the roughness. All
+/// directions are unit vectors in the local frame with z > 0, and alpha > 0.
 /// \{
 
 namespace detail {
 
 /// The normal of the facet that reflects one direction into another. The sum of the
-/// directions is scaled before it is normalised, so that its squares do not underflow.
+/// directions is scaled before it is normalised, so that the squares of its components
+/// do not underflow.
 /// \param wo  Unit vector in the surface's frame, with z > 0.
 /// \param wi  The other unit vector, also with z > 0.
 /// \return Unit vector with z > 0.
@@ -54,7 +55,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The function r(w), from which the visibility of facets is computed.
+/// The function r(w) of a direction w, from which the visibility of facets is computed.
 ///
 /// \f[ r(w) = \sqrt{w_z^2 + \alpha^2 (w_x^2 + w_y^2)}, \quad
 ///     G_1(w) = \frac{2 w_z}{w_z + r(w)}, \quad

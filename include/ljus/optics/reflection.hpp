@@ -15,7 +15,8 @@ namespace ljus {
 ///
 /// \f[ R = 2I - D, \qquad I = D - (D \cdot N)\,N \f]
 ///
-/// I is the component of D along the surface; the component along N changes its sign.
+/// D and R are the directions before and after the reflection, N is the normal, and I
+/// is the component of D along the surface. The component along N changes its sign.
 /// \param d  The direction in which the incoming ray *travels*, towards the surface.
 /// \param n  Unit normal; N and -N give the same R.
 /// \return The direction in which the reflected ray travels, of the length of `d`.

@@ -25,7 +25,7 @@ namespace ljus {
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
 ///
 /// For \f$ \eta \le 1 \f$ nothing cancels in this form. For \f$ \eta = 1 \f$ the
-/// direction is unchanged. A negative square means total internal reflection.
+/// direction is unchanged. A negative cos^2(theta_2) means total internal reflection.
 /// \erratum{theta_1 must be the angle between -D and N, not between D and N. The report
 ///          does not mention the case without a refracted ray, sin(theta_1) n_1/n_2 >
 ///          1.}

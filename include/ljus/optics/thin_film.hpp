@@ -67,8 +67,8 @@ template <std::floating_point T>
 // [film_shares]
 
 /// The reflectance R and the transmittance T = 1 - R of a film in air at one
-/// wavelength, with all reflections inside the film. For each polarisation, R is the
-/// sum of Airy's series:
+/// wavelength. They include all reflections inside the film. For each polarisation, R
+/// is the sum of Airy's series:
 ///
 /// \f[ R = \frac{F \sin^2\varphi}{1 + F \sin^2\varphi}, \quad
 ///     F = \frac{4 R_1}{(1 - R_1)^2}, \quad
@@ -80,9 +80,9 @@ template <std::floating_point T>
 /// The function computes \f$ F \sin^2\varphi = q^2 / (4\cos^2\theta) \f$, in which
 /// nothing cancels, for the angle theta outside. For waves polarised perpendicular to
 /// the plane of incidence, \f$ q = (n^2 - 1) \sin\varphi / g \f$ with
-/// \f$ g = n \cos\theta_t \f$. For the other waves q is multiplied by
-/// \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. If nothing is refracted, which needs n < 1,
-/// the sine becomes hyperbolic: light tunnels through the film.
+/// \f$ g = n \cos\theta_t \f$. For waves polarised parallel to this plane, q is
+/// multiplied by \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. If nothing is refracted,
+/// which needs n < 1, the sine becomes hyperbolic: light tunnels through the film.
 /// \param cos_theta   Cosine between ray and normal outside the film, in [0, 1].
 /// \param index       Index of the film, > 0.
 /// \param thickness   Thickness, >= 0, in the unit of the wavelength.

@@ -36,9 +36,9 @@ namespace detail {
 /// A lamp whose form factor at a vertex is known.
 template <std::floating_point T>
 struct SeenLampT {
-    /// The form factor from a surface that faces the side of `wo`.
+    /// The form factor of the lamp, as seen from the vertex on the side of `wo`.
     T form_factor = T(0);
-    RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
+    RgbT<T> radiance{T(0)}; ///< The lamp's radiance in W/(m^2 sr).
 };
 
 /// The form factor and the radiance of a light at a vertex.
@@ -225,7 +225,7 @@ public:
         next_ -= whole;
         return int(whole);
     }
-    /// Adds a faint lamp.
+    /// Adds the light of a faint lamp.
     /// \param all      The unoccluded light of the lamp.
     /// \param arrived  The result of analytic_light(); ignored if `rays` is 0.
     /// \param rays     The number of rays to the lamp.
@@ -257,7 +257,7 @@ private:
     RgbT<T> all_{T(0)}, sent_{T(0)}, arrived_{T(0)};
 };
 
-/// Verdicts by which every shadow ray is cast.
+/// Verdicts for a vertex at which the visibility of every light is unknown.
 struct NoVerdicts {
     /// Verdict::unknown for every light.
     constexpr Verdict operator()(std::size_t) const noexcept {
@@ -356,7 +356,7 @@ struct DirectLightSettings {
     /// Multiple importance sampling needs a scattered ray. If this is Lobes::none, an
     /// extra ray is traced. Otherwise the next ray of the path, sampled from these
     /// lobes, serves as the scattered ray, and the caller must add its light by
-    /// met_light(). Must be Lobes::none in fog.
+    /// met_light(). In fog, this must be Lobes::none.
     Lobes next = Lobes::none;
 };
 
@@ -366,10 +366,11 @@ struct DirectLightSettings {
 /// \param material  The material of the surface.
 /// \param settings  Method and number of rays. n rays divide each light into n cells,
 ///                  and one ray goes to each cell.
-/// \param context   Two numbers are drawn for each light that gets rays, one more among
-///                  several lamps with a closed form, and three more for an extra ray.
-///                  Rays are counted. For a light with Verdict::shadow, n skipped rays
-///                  are counted.
+/// \param context   Two numbers are drawn for each light, except for a lamp that is too
+///                  faint to get a ray. One more may be drawn for
+///                  DirectLight::analytic, and three more for an extra ray. Rays are
+///                  counted. For a light with Verdict::shadow, n skipped rays are
+///                  counted.
 /// \param verdicts  Called with a light's index; returns its known visibility.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}

@@ -21,7 +21,7 @@ namespace ljus {
 /// |-----------------------------------|----------------------------------------------|
 /// | wo of a camera path               | the geometric normal becomes the z axis      |
 /// | wo of a photon                    | the same, and non-specular lobes absorb it   |
-/// | of a shadow ray or stored photon  | there is no light                            |
+/// | of a shadow ray or stored photon  | the surface reflects no light                |
 /// | sampled from a mirror or glass    | sampled again around the geometric normal    |
 /// | sampled from any other lobe       | the path ends                                |
 /// \{
@@ -81,8 +81,8 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 namespace detail {
 
 /// The absorption coefficient on the side of `wi` of a surface. If `wi` and `wo` lie on
-/// the same side, it is `medium`. Otherwise it is that of the material inside the body,
-/// and 0 outside.
+/// the same side, it is `medium`. Otherwise it is that of the material if `wi` points
+/// into the body, and 0 if `wi` points out of the body.
 /// \param medium    Absorption coefficient on the side of `wo`, per scene unit.
 /// \param wo, wi    Unit vectors in the frame of the surface.
 /// \return Per scene unit.

@@ -66,9 +66,10 @@ template <std::floating_point T>
 /// How light is divided between a shadow ray and a scattered ray.
 template <std::floating_point T>
 struct MisT {
-    MisHeuristic heuristic = MisHeuristic::shadow_rays; ///< The weights.
-    /// Factor of the pdf of a shadow ray: the number of shadow rays, or the probability
-    /// of choosing the light.
+    /// The heuristic of the weights.
+    MisHeuristic heuristic = MisHeuristic::shadow_rays;
+    /// Factor by which the pdf of a shadow ray is multiplied: the number of shadow
+    /// rays, or the probability of choosing the light.
     T factor = T(1);
     Lobes lobes = Lobes::all; ///< The lobes that the scattered ray samples.
 };
@@ -92,7 +93,8 @@ template <AnyWorld W, std::floating_point T>
 template <std::floating_point T>
 struct SkyT {
     RgbT<T> radiance{T(0)}; ///< The radiance in W/(m^2 sr).
-    T pdf = T(0); ///< Density of the direction for a shadow ray, per steradian.
+    /// Density with which a shadow ray would choose this direction, per steradian.
+    T pdf = T(0);
 };
 
 namespace detail {
@@ -134,9 +136,9 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The mean of the channels of the transmittance of fog. This is about the probability
-/// that fog lets a scattered ray pass. For the weights of multiple importance sampling,
-/// the density of a scattered ray is multiplied by this mean.
+/// The mean of the channels of the transmittance of fog. This mean approximates the
+/// probability that fog lets a scattered ray pass. For the weights of multiple
+/// importance sampling, the density of a scattered ray is multiplied by this mean.
 template <std::floating_point T>
 [[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
     return (transmittance.x + transmittance.y + transmittance.z) / T(3);

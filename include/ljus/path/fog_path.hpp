@@ -49,12 +49,12 @@ void require_no_film_in_fog([[maybe_unused]] const W& world) {
                 "thin surfaces; remove the fog, or all soap films and thin glass.");
 }
 
-/// The points of a segment from which shadow rays find the light that fog scatters. All
-/// choices have the same mean.
+/// How to choose the points of a segment from which shadow rays find the light that fog
+/// scatters. All choices have the same mean.
 enum class FogLight : std::uint8_t {
-    both,   ///< Both kinds of points, weighted by the balance heuristic.
+    both,   ///< The points of both other choices, weighted by the balance heuristic.
     flight, ///< The points where fly() scatters the path.
-    /// Points of equi-angular sampling. For distant lights, those of fly().
+    /// Points from equi-angular sampling. A distant light uses the points of `flight`.
     equi_angular
 };
 
@@ -73,7 +73,7 @@ void visit_fog(const W& world, std::uint32_t number, F&& f) {
 }
 
 /// Calls f(number, medium, span) for each medium that a ray crosses. The span is the
-/// part of the ray in the medium.
+/// interval of t in which the ray is inside the medium.
 template <AnyWorld W, std::floating_point T, typename F>
 void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
     std::uint32_t number = 0;

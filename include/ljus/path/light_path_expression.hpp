@@ -27,7 +27,8 @@ namespace ljus {
 /// A compiled class of paths: Glushkov's automaton. State 0 is the start. Each letter
 /// of the expression is one more state. A set of states has one bit per state.
 struct LightPathExpression {
-    std::array<std::uint64_t, 64> follow{}; ///< For each state, the states after it.
+    /// For each state, the set of states that may follow.
+    std::array<std::uint64_t, 64> follow{};
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;        ///< The set of accepting states.
 
@@ -149,7 +150,7 @@ light_path_expression(std::string_view expression) {
 namespace detail {
 
 /// Whether a whole path, for example "EDSSL", belongs to a class.
-/// \cost A few bit operations per letter; no memory.
+/// \cost A few bit operations per letter; allocates no memory.
 // [contains]
 [[nodiscard]] constexpr bool contains(const LightPathExpression& paths,
                                       std::string_view path) noexcept {

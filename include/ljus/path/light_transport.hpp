@@ -23,7 +23,7 @@ namespace ljus {
 /// \param x      One point.
 /// \param other  The other point. Exchanging both gives the same result.
 /// \return 1/r^2 for points at a distance r, per squared scene unit. 0 if any surface,
-///         even of glass, occludes the way, or if the points coincide.
+///         even of glass, lies between the points, or if the points coincide.
 /// \report{Eq. (1)}
 /// \erratum{The report has 1/r^2 only, so that no surface casts a shadow.}
 // [transport_factor]
@@ -43,8 +43,8 @@ namespace detail {
 template <std::floating_point T>
 struct ExpressionLog {
     const LightPathExpression& wanted; ///< The class.
-    RgbT<T> sum{T(0)};                 ///< Sum of the terms, with throughput.
-    std::uint64_t states = 0;          ///< The automaton's states for the path so far.
+    RgbT<T> sum{T(0)};        ///< Sum of the terms, each multiplied by its throughput.
+    std::uint64_t states = 0; ///< The automaton's states for the path so far.
 
     /// Starts a path at the eye.
     void begin() noexcept { states = wanted.step(1, 'E'); }
@@ -54,9 +54,9 @@ struct ExpressionLog {
     }
 
     /// Whether the path belongs to the class if it continues to a light.
-    /// \param letters  The letters from the last vertex to the light. The term of a
-    ///                 photon map stands for several paths, such as "DS+L"; then the
-    ///                 shortest of them decides.
+    /// \param letters  The letters from the last vertex to the light. The letters of a
+    ///                 term from a photon map, such as "DS+L", stand for several paths.
+    ///                 The shortest of these paths then decides.
     [[nodiscard]] bool takes(std::string_view letters) const noexcept {
         std::uint64_t here = states;
         for (const char letter : letters) {
@@ -76,9 +76,11 @@ struct ExpressionLog {
 /// A log that sums the terms of several classes of paths separately.
 template <std::floating_point T>
 struct ClassesLog {
-    std::vector<ExpressionLog<T>> logs{};  ///< One log for each class.
-    std::vector<std::uint64_t> takers{};   ///< For each delayed term, a bit per class.
-    std::uint32_t* next_delayed = nullptr; ///< Receives takers.size() after delay().
+    std::vector<ExpressionLog<T>> logs{}; ///< One log for each class.
+    /// For each delayed term, one bit per class: whether the term belongs to the class.
+    std::vector<std::uint64_t> takers{};
+    /// Where delay() writes the new size of `takers`.
+    std::uint32_t* next_delayed = nullptr;
 
     /// Makes a log.
     /// \param classes  The classes of paths, at most 64; must outlive the log.
@@ -108,9 +110,10 @@ struct ClassesLog {
 
 } // namespace detail
 
-/// A renderer that carries only one class of the paths of another renderer. The random
-/// paths are the same. If the classes of several such renderers are disjoint and
-/// together contain all paths, their pictures add up to that of the other renderer.
+/// A renderer that carries only one class of the paths of another renderer. Both
+/// renderers trace the same random paths. If the classes of several such renderers are
+/// disjoint and together contain all paths, their pictures add up to that of the other
+/// renderer.
 ///
 ///     render(OnlyPaths(tracer, "ES*DS+L"), camera, picture)
 template <typename R>
@@ -139,7 +142,8 @@ private:
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 
-/// The radiance that a camera ray receives by paths of the class, in W/(m^2 sr).
+/// The radiance that a camera ray receives by the paths of the renderer's class, in
+/// W/(m^2 sr).
 /// \cost That of the other renderer.
 template <typename R, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const OnlyPaths<R>& renderer, const RayT<T>& ray,

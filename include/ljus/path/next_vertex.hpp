@@ -33,18 +33,21 @@ struct VertexT {
     FrameT<T> frame{};        ///< Shading frame, in which materials work.
     /// Unit direction to the previous vertex, in the frame.
     Vec3T<T> wo{T(0), T(0), T(1)};
-    Vec2T<T> uv{T(0)};    ///< Texture coordinates, set if the material uses them.
-    ObjectId id{};        ///< Number of the object.
-    ObjectT<T> object{};  ///< Material and emission of the object.
-    T outside = T(1);     ///< Index of refraction on the outside; 1 in air.
-    RgbT<T> medium{T(0)}; ///< Absorption before the vertex, per scene unit.
-    T distance = T(0);    ///< Distance from the previous vertex, in scene units.
-    T time = T(0);        ///< Time of the path, in [0, 1].
+    Vec2T<T> uv{T(0)};   ///< Texture coordinates, set if the material uses them.
+    ObjectId id{};       ///< Number of the object.
+    ObjectT<T> object{}; ///< Material and emission of the object.
+    T outside = T(1);    ///< Index of refraction on the outside; 1 in air.
+    /// Absorption coefficient on the side of `wo`, per scene unit.
+    RgbT<T> medium{T(0)};
+    T distance = T(0); ///< Distance from the previous vertex, in scene units.
+    T time = T(0);     ///< Time of the path, in [0, 1].
     /// At a thin surface, the probability of not passing the surface.
     T stop_probability = T(1);
     T wavelength = line_d<T>; ///< Wavelength for dispersive glass, in nm.
-    bool smooth = false; ///< Whether the normals differ but agree on the side of `wo`.
-    bool turned = false; ///< Whether the normals disagree on the side of `wo`.
+    /// Whether the shading normal and the geometric normal differ, but agree about the
+    /// side of `wo`.
+    bool smooth = false;
+    bool turned = false; ///< Whether the two normals disagree about the side of `wo`.
 
     /// Whether the surface emits towards `wo`; emission is one-sided.
     [[nodiscard]] bool emits() const noexcept {
@@ -99,9 +102,9 @@ inline constexpr bool lists_normal_maps = W::any_material([]<typename M>() {
 /// \param normal     The shading normal of the shape.
 /// \param geometric  The geometric normal, on the same side.
 /// \param tangents   texture_tangents() of the shape.
-/// \return A unit vector within 90 degrees of `geometric`. It is `normal` if the map is
-///         flat at this point or the shape has no tangents there, and `geometric` if
-///         the mapped normal would point to the other side.
+/// \return A unit vector within 90 degrees of `geometric`. If the map is flat at this
+///         point or the shape has no tangents there, the result is `normal`. If the
+///         mapped normal would point to the other side, the result is `geometric`.
 // [mapped_normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> mapped_normal(const Vec3T<T>& local, const Vec3T<T>& normal,
@@ -138,9 +141,9 @@ template <AnyWorld W>
     });
 }
 
-/// Completes a vertex where surfaces of several objects lie in one place. It sets the
-/// index of refraction on the outside. It enlarges the error of the point, so that a
-/// new ray starts beyond all of these surfaces.
+/// Completes a vertex at which surfaces of several objects coincide. It sets the index
+/// of refraction on the outside. It enlarges the error of the point, so that a new ray
+/// starts beyond all of these surfaces.
 template <AnyWorld W, std::floating_point T>
 [[gnu::cold]] void set_contact(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                                const SceneHitT<T>& hit) {
@@ -321,9 +324,9 @@ template <std::floating_point T>
 /// A thin surface, such as a soap film, reflects some light and transmits the rest
 /// without deflection. Transmission does not count as scattering: a transmitted path
 /// has no vertex at the surface, and keeps its letters in Heckbert's notation, its
-/// density and its depth. Reflection is S. The function visibility() multiplies the
-/// light of a shadow ray by the transmittances. The function next_vertex() chooses
-/// between transmission and reflection at random.
+/// density and its depth. Reflection counts as specular scattering, S. The function
+/// visibility() multiplies the light of a shadow ray by the transmittances. The
+/// function next_vertex() chooses between transmission and reflection at random.
 /// \{
 
 /// A material that transmits light without deflection: `pass_through(m, position, wo)`
@@ -425,7 +428,8 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// The largest number of thin or hidden surfaces that a ray passes. A ray that meets
-/// more counts as blocked.
+/// more of them counts as blocked. A hidden surface lies inside a body of higher
+/// priority.
 inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces or with overlapping bodies.
@@ -465,11 +469,13 @@ template <AnyWorld W, std::floating_point T>
 /// \param from   One point.
 /// \param to     The other point.
 /// \param time   Time of the path, in [0, 1].
-/// \return For each channel: 0 if a surface occludes the way, otherwise the product of
-///         the transmittances of thin surfaces and of fog on the way. A surface inside
-///         a body of higher priority does not occlude.
-/// \cost One call of occluded(). If there are thin or hidden surfaces, one call of
-///       closest_hit() for each, and one more.
+/// \return For each channel: 0 if a surface occludes one point from the other,
+///         otherwise the product of the transmittances of thin surfaces and of fog
+///         between the points. A surface inside a body of higher priority does not
+///         occlude.
+/// \cost One call of occluded(). If the scene has thin surfaces, or if a hidden surface
+///       lies between the points, one call of closest_hit() per surface between them,
+///       and one more.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
@@ -492,10 +498,13 @@ namespace detail {
 /// The surfaces that a path passes between two vertices.
 template <std::floating_point T>
 struct PassageT {
-    RgbT<T> through{T(1)}; ///< Transmittance over the probability of passing.
+    RgbT<T> through{T(1)}; ///< Transmittance divided by the probability of passing.
     T distance = T(0); ///< Distance from the first vertex to the last passed surface.
-    T stop_probability = T(1); ///< Probability of stopping at a thin surface; else 1.
-    std::uint8_t outside = 0;  ///< Rank of the body outside; see BodyList. 0: air.
+    /// Probability of stopping at the thin surface where the path stops; 1 at any other
+    /// surface.
+    T stop_probability = T(1);
+    /// Rank of the body on the outside, see BodyList; 0 is air.
+    std::uint8_t outside = 0;
 };
 
 /// Traces a path through thin and hidden surfaces. A path stops at a thin surface, to
@@ -555,8 +564,8 @@ inline constexpr bool lists_media = W::any_material([]<typename M>() {
     return Transparent<M>;
 });
 
-/// The absorption coefficient in a body of a material, per scene unit; nothing if the
-/// material has no absorption().
+/// The absorption coefficient in a body made of a material, per scene unit; nothing if
+/// the material has no absorption().
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>> medium_of(const W& world,
                                                                 MaterialId material) {
@@ -570,8 +579,8 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption coefficient in the body of a rank, see BodyList, per scene unit.
-/// Nothing for rank 0, which is air.
+/// The absorption coefficient in the body with a given rank, per scene unit; see
+/// BodyList. Nothing for rank 0, which is air.
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -619,7 +628,8 @@ template <AnyWorld W, std::floating_point T>
 
 /// The absorption coefficient at the origin of a ray, per scene unit: interior_at(), or
 /// 0 outside all bodies.
-/// \cost A comparison outside the bounding box of all bodies that absorb.
+/// \cost Only a comparison if the origin is outside the bounding box of all bodies that
+///       absorb.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, const RayT<T>& ray) {
     if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
@@ -649,8 +659,9 @@ template <AnyWorld W, std::floating_point T>
 // [optical depth]
 
 /// Whether a ray may cross fog: the scene has fog, and the ray does not start inside a
-/// body, where there is none.
-/// \cost A comparison outside the bounding box of all transparent bodies.
+/// body, where there is no fog.
+/// \cost Only a comparison if the origin is outside the bounding box of all transparent
+///       bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
     if (!world.has_fog()) return false;
@@ -672,8 +683,9 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// Sets the medium of a path if it is not known. It is not known at the start of the
-/// path and, if bodies may lie inside others, where the path has left a body.
+/// Sets the medium of a path if PathStateT::medium_known is false. This is so at the
+/// start of the path. In a scene whose bodies may lie inside others, it is also so
+/// where the path has left a body.
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {
@@ -684,9 +696,9 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
     }
 }
 
-/// In a scene with priorities, sets two things: the index of refraction on the outside
-/// of a vertex; and the medium of the path, which is that of the body with the highest
-/// priority around it.
+/// In a scene with priorities, sets the index of refraction on the outside of a vertex,
+/// and the medium of the path. This medium is that of the body with the highest
+/// priority around the path.
 /// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,

@@ -22,7 +22,8 @@ struct PathLogLine {
     std::string what;       ///< "vertex", or the name of the estimator of a term.
     glm::dvec3 value{0};    ///< Throughput after a vertex, or radiance of a term.
     glm::dvec3 position{0}; ///< Position of the last vertex so far.
-    double pdf = 0;         ///< Density of the next direction, per steradian; 0: delta.
+    /// Density of the next direction, per steradian; 0 after a specular lobe.
+    double pdf = 0;
 };
 
 /// A log that records every vertex and every term of a path.
@@ -44,7 +45,8 @@ struct PathLog {
     /// \param letter      S for a specular lobe, otherwise D.
     /// \param position    Position of the vertex.
     /// \param throughput  Throughput of the path after the vertex.
-    /// \param pdf         Density of the new direction, per steradian; 0 for a delta.
+    /// \param pdf         Density of the new direction, per steradian; 0 for a specular
+    ///                    lobe.
     template <std::floating_point T>
     void vertex(char letter, const Vec3T<T>& position, const RgbT<T>& throughput,
                 T pdf) {

@@ -20,11 +20,12 @@ namespace ljus {
 template <std::floating_point T>
 struct PathStateT {
     RayT<T> ray{}; ///< The current ray, with the time of the path.
-    /// For a camera path, the factor of the radiance that it finds; for a photon, its
-    /// flux in W.
+    /// For a camera path, the factor by which the radiance that the path finds is
+    /// multiplied. For a photon, its flux in W.
     RgbT<T> throughput{T(1)};
-    T eta_scale = T(1);        ///< The product of all BsdfSampleT::eta_scale.
-    RgbT<T> medium{T(0)};      ///< Absorption coefficient here, per scene unit.
+    T eta_scale = T(1); ///< The product of all BsdfSampleT::eta_scale.
+    /// Absorption coefficient around the current ray, per scene unit.
+    RgbT<T> medium{T(0)};
     bool medium_known = false; ///< If false, next_vertex() finds the medium.
     /// In a scene with priorities, the bodies around the path. If the list is empty,
     /// next_vertex() looks for them.
@@ -32,9 +33,10 @@ struct PathStateT {
     /// In a scene with priorities, the bodies behind the surface of the vertex.
     BodyList behind{};
     Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
-    T pdf = T(0);            ///< Density of the direction, per steradian; 0: delta.
-    /// The wavelength in nm; 0, for all wavelengths, until the path meets a Dispersive
-    /// material.
+    /// Density of the ray's direction, per steradian; 0 after a specular lobe.
+    T pdf = T(0);
+    /// The wavelength in nm. It is 0, for all wavelengths, until the path meets a
+    /// Dispersive material.
     T wavelength = T(0);
     bool specular = false;     ///< Whether the last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.
@@ -46,10 +48,11 @@ using PathState = PathStateT<float>; ///< PathStateT in float.
 
 /// Russian roulette on a camera path \cite arvo1990. The path survives with a
 /// probability proportional to its throughput. The throughput of a survivor is divided
-/// by this probability, so that the mean stays the same. The scaling of radiance by
-/// refraction, `eta_scale`, does not influence the probability.
-/// \param throughput       The throughput, whose largest channel counts. It is divided
-///                         by the probability if the path survives.
+/// by this probability, so that the mean radiance stays the same. The scaling of
+/// radiance by refraction, `eta_scale`, does not influence the probability.
+/// \param throughput       The throughput. Its largest channel sets the probability. If
+///                         the path survives, the throughput is divided by the
+///                         probability.
 /// \param eta_scale        PathStateT::eta_scale.
 /// \param u                In [0, 1).
 /// \param threshold        Paths with a larger throughput survive with probability

@@ -19,16 +19,18 @@ namespace ljus {
 
 /// The numbers of rays and photons of a rendering.
 struct Counts {
-    std::uint64_t camera_rays = 0;     ///< Primary rays.
-    std::uint64_t bounce_rays = 0;     ///< Reflected, refracted and indirect rays.
-    std::uint64_t shadow_rays = 0;     ///< Rays to lights.
-    std::uint64_t map_queries = 0;     ///< Density estimates of photon maps.
-    std::uint64_t map_photons = 0;     ///< Photons summed by density estimates.
-    std::uint64_t skipped_rays = 0;    ///< Shadow rays that photons made unnecessary.
-    std::uint64_t skipped_bounces = 0; ///< Indirect rays omitted in the dark.
-    std::uint64_t rejected = 0; ///< Samples left out because they were not finite.
+    std::uint64_t camera_rays = 0;  ///< Primary rays.
+    std::uint64_t bounce_rays = 0;  ///< Reflected, refracted and indirect rays.
+    std::uint64_t shadow_rays = 0;  ///< Rays to lights.
+    std::uint64_t map_queries = 0;  ///< Density estimates of photon maps.
+    std::uint64_t map_photons = 0;  ///< Photons that density estimates have summed.
+    std::uint64_t skipped_rays = 0; ///< Shadow rays that photons made unnecessary.
+    /// Indirect rays that were skipped because no indirect photon was near.
+    std::uint64_t skipped_bounces = 0;
+    /// Samples that were rejected because they were not finite.
+    std::uint64_t rejected = 0;
     std::uint64_t cut_paths =
-        0; ///< Paths ended by the depth limit; their light is missing.
+        0; ///< Paths that the depth limit has ended; their light is missing.
 
     /// All rays.
     [[nodiscard]] constexpr std::uint64_t rays() const noexcept {

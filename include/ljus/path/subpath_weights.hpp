@@ -16,9 +16,9 @@ namespace ljus {
 /// \ref ch_both_ends.
 ///
 /// A path from the eye and a path from a light are the two *subpaths* of a whole path.
-/// A *strategy* is the place and the way in which they are joined: by a connection of
-/// two vertices, or by merging two vertices that are close together. The *opposite way*
-/// of a subpath is the way from its last vertex back to its first.
+/// A *strategy* says at which vertices the subpaths are joined, and how: by a
+/// connection of two vertices, or by merging two vertices that are close together. The
+/// *opposite way* of a subpath is the way from its last vertex back to its first.
 ///
 /// The functions take densities per steradian, cosines and distances. At a mirror or
 /// clear glass the density of a direction is infinite, on both ways. The two infinite
@@ -43,10 +43,12 @@ struct SubpathWeights {
 
 /// The densities at the end of a path on a light.
 struct LightEnd {
-    double area = 0;   ///< Area of the light; 0 for a light without extent.
-    double pdf = 0;    ///< Density of the emitted direction, per steradian.
-    double direct = 1; ///< Density of the point for a shadow ray, times the area.
-    double cosine = 0; ///< Cosine of direction and normal; 0 without a surface.
+    double area = 0; ///< Area of the light; 0 for a light without extent.
+    double pdf = 0;  ///< Density of the emitted direction, per steradian.
+    /// Density with which a shadow ray would choose the point, times the area.
+    double direct = 1;
+    /// Cosine between direction and normal; 0 if the light has no surface.
+    double cosine = 0;
 };
 
 /// The weights of a light path at its start, for arrived().
@@ -64,7 +66,8 @@ struct LightEnd {
 /// \param pdf      Density of the new direction, per steradian; 0 for mirror or glass.
 /// \param back     Density of the old direction on the opposite way, per steradian.
 /// \param cosine   |cosine| of the new direction and the geometric normal. At a mirror
-///                 or glass, |cosine| of the old direction, which cancels a factor.
+///                 or glass, it is the |cosine| of the old direction instead, which
+///                 cancels the division in arrived().
 /// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
 /// \return The weights for arrived().
 // [recursion]
@@ -178,8 +181,8 @@ template <std::floating_point T>
                    double(at.distance) * double(at.distance));
 }
 
-/// BSDF, cosines and densities at a vertex, for a direction in which the path could go
-/// on.
+/// BSDF, cosines and densities at a vertex, for a direction in which the path could
+/// continue.
 template <std::floating_point T>
 struct TurnT {
     RgbT<T> f{T(0)};   ///< The BSDF, in 1/sr; 0 if the normals disagree about the side.

@@ -75,13 +75,14 @@ struct AimT {
     ConeT<T> cone{}; ///< The cone into which the point aims.
     /// Whether the point aims at the object's area instead of the cone.
     bool at_area = false;
-    T size = T(0); ///< About the solid angle over 2 pi: the weight of the choice.
+    /// The weight of the choice: approximately the solid angle divided by 2 pi.
+    T size = T(0);
 };
 
 /// Chooses how a point of a light aims at an object: at the cone of directions to the
 /// object's bounding sphere or, if the object is flat, at its area. If the cone of
-/// emission is narrower (a spot light, or a lamp inside the bounding sphere), the point
-/// aims at the cone of emission instead.
+/// emission is narrower, as for a spot light or a lamp inside the bounding sphere, the
+/// point aims at the cone of emission instead.
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
 // [aim_at]
@@ -171,7 +172,7 @@ struct LeavingAimedT {
 
 /// Aims a photon of a distant light at a target, uniformly over the cross section of
 /// its bounding sphere.
-/// \return Nothing if all targets have the radius 0.
+/// \return Nothing if the bounding spheres of all targets have the radius 0.
 template <AnyWorld W, FarLight L, std::floating_point T>
 [[nodiscard]] std::optional<LeavingAimedT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
@@ -200,8 +201,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \param emission  The cone of all directions of emission.
 /// \param from      The point of the light.
 /// \param targets   The targets.
-/// \return Nothing if all targets have the radius 0, or if the chosen target is flat
-///         and is seen edge-on or contains `from`.
+/// \return Nothing if the bounding spheres of all targets have the radius 0, or if the
+///         chosen target is flat and is seen edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
@@ -260,15 +261,15 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// flat object is sampled uniformly over its area instead. A distant light aims at the
 /// cross sections of the bounding spheres.
 ///
-/// The flux is multiplied by a ratio of two densities: that with which the light emits
-/// in the direction, over that with which this function samples the direction. Because
+/// The flux is multiplied by the density with which the light emits in the direction,
+/// and divided by the density with which this function samples the direction. Because
 /// cones may overlap, the caller must drop a photon that hits another object first.
 /// \param world    The closed scene.
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.
 /// \param stream   Six numbers are drawn, and one more if a shape moves.
-/// \return The photon. Nothing if the light does not emit towards the target, or if all
-///         targets have the radius 0.
+/// \return The photon. Nothing if the light does not emit towards the target, or if the
+///         bounding spheres of all targets have the radius 0.
 /// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The report's program does not divide by the density of the direction, and

@@ -20,13 +20,13 @@ namespace ljus {
 
 /// The fractions of photons that minimise a sum of variances. If n_k photons give
 /// object k the variance \f$ a_k^2 / n_k \f$, the sum of all variances is smallest for
-/// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, a part of the
-/// photons is distributed evenly. With correct a_k, the sum of the variances is then at
-/// most 1/(1 - floor) times the smallest.
+/// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, the fraction
+/// `floor` of the photons is distributed evenly. With correct a_k, the sum of the
+/// variances is then at most 1/(1 - floor) times the smallest.
 /// \param scatter  The a_k: finite and at least 0.
-/// \param floor    The part that is distributed evenly, in [0, 1].
-/// \return One fraction per object, at least `floor` over the number of objects; the
-///         sum is 1. Equal fractions if all a_k are 0.
+/// \param floor    The fraction that is distributed evenly, in [0, 1].
+/// \return One fraction per object, at least `floor` divided by the number of objects;
+///         the sum is 1. Equal fractions if all a_k are 0.
 /// \throws std::invalid_argument  if a value is out of range.
 // [share_out]
 [[nodiscard]] inline std::vector<double> share_out(std::span<const double> scatter,
@@ -54,7 +54,7 @@ struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
-    double area = 0;        ///< Area of the caustic: flux over mean irradiance.
+    double area = 0;        ///< Area of the caustic: flux divided by mean irradiance.
     double absolute = 0;    ///< Scatter of the irradiance, in W.
     /// Scatter relative to the caustic's mean irradiance, in squared scene units.
     double relative = 0;
@@ -83,8 +83,8 @@ template <std::floating_point T>
     return sum / (std::numbers::pi * double(radius) * double(radius));
 }
 
-/// The flux-weighted mean of the irradiance around photons, from about a thousand of
-/// them.
+/// The mean of the irradiance around at most a thousand of the photons, weighted by
+/// their flux.
 template <std::floating_point T>
 [[nodiscard]] double mean_irradiance(const PhotonMapT<T>& map,
                                      const std::vector<PhotonT<T>>& photons, T radius) {
@@ -162,17 +162,18 @@ struct PilotLightT {
 /// where \f$ x_i \f$ is its position. The scatter a_k of object k, from a pilot of n
 /// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
 /// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
-/// caustic. For `visible` E is the irradiance of all light plus a constant, which
-/// limits the weight of dark places: a tenth of the mean irradiance.
+/// caustic. For `visible` E is the irradiance of all light plus a tenth of the mean
+/// irradiance, which limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                its photons, 500 to 20 000 per object.
+///                the photons of that pass, 500 to 20 000 per object.
 /// \param radius  Radius of the picture's estimates, in scene units. The pilot searches
-///                within twice this radius. 0: the typical radius of 32 photons of the
-///                picture.
+///                within twice this radius. If it is 0, the typical radius of 32
+///                photons of the picture is used.
 /// \param light   The photons of a general map, for all other light; may be empty.
 ///                Shadow photons do not count.
-/// \param wide    Search radius in `light`; 0: the typical radius of 64 of its photons.
+/// \param wide    Search radius in `light`. If it is 0, the typical radius of 64 of
+///                these photons is used.
 /// \return One result per element of specular_objects().
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard]] std::vector<CausticPilot>
@@ -233,7 +234,7 @@ struct AllAlike {
 /// of a choice by power, even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                its photons, 200 to 20 000 per light.
+///                the photons of that pass, 200 to 20 000 per light.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for

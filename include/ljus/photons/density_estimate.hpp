@@ -119,11 +119,12 @@ namespace detail {
 template <std::floating_point T>
 struct EstimatePlaceT {
     Vec3T<T> center{T(0)}; ///< The point, in scene units.
-    Vec3T<T> normal{T(0)}; ///< Normal of the surface; compared with those of photons.
-    Vec3T<T> from{T(0)};   ///< Unit normal on the visible side; see FluxDiscT.
-    RgbT<T> brdf{T(0)};    ///< BRDF of the surface, per steradian.
-    RgbT<T> throughput{T(0)}; ///< Throughput of the path; for the caller.
-    std::uint32_t item = 0;   ///< Identifies the request; for the caller.
+    /// Normal of the surface, to be compared with the normals of photons.
+    Vec3T<T> normal{T(0)};
+    Vec3T<T> from{T(0)};      ///< Unit normal on the visible side; see FluxDiscT.
+    RgbT<T> brdf{T(0)};       ///< BRDF of the surface, per steradian.
+    RgbT<T> throughput{T(0)}; ///< Throughput of the path; used by the caller only.
+    std::uint32_t item = 0;   ///< Identifies the request to the caller.
 };
 
 /// Makes a request for the estimate that estimate_radiance() gives at a vertex, for the

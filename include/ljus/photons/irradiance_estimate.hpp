@@ -39,13 +39,14 @@ inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 template <KernelLike K>
 struct DensityEstimateOf {
     float radius = 0.1f; ///< Search radius in scene units, from 1e-15 to 1e15.
-    /// 0: all photons within the radius. Otherwise k, the number of nearest photons
-    /// within the radius.
+    /// If this is 0, all photons within the radius count. Otherwise it is k: only the k
+    /// nearest photons within the radius count.
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
-    /// Half the height of the disc over its radius. A small value excludes photons of
-    /// parallel walls. On a ball whose radius is at least that of the disc, 0.5 is
-    /// enough to contain the surface within the radius.
+    /// Half the height of the disc, divided by the radius of the disc. A small value
+    /// excludes photons of parallel walls. A value of 0.5 is enough for a ball that is
+    /// at least as large as the disc: the disc then contains the surface of the ball
+    /// within the radius.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.
@@ -114,7 +115,7 @@ struct OfKinds {
     }
 };
 
-/// The photons of an estimate with the k nearest.
+/// The photons of an estimate from the k nearest photons.
 struct NearestPhotons {
     std::span<const Neighbor> photons{}; ///< The photons, in no particular order.
     double radius2 = 0;                  ///< Squared radius of the disc.
@@ -216,7 +217,8 @@ template <std::floating_point T, KernelLike<T> K>
 /// \f[ E(x) = \frac{1}{\pi r^2} \sum_i w_i\, \Delta\Phi_i \f]
 ///
 /// where r is the radius, w_i the weight of photon i by the kernel, and
-/// \f$ \Delta\Phi_i \f$ its flux. estimate_radiance() explains which photons count.
+/// \f$ \Delta\Phi_i \f$ the flux of the photon. estimate_radiance() explains which
+/// photons count.
 ///
 /// The function needs no scene, so that photons of another program can be used: copy
 /// their position, direction, flux and kind into Photon. The i-th record of the map

@@ -39,8 +39,9 @@ struct IrradiancePointsT {
     KdTree8T<T> tree; ///< The positions of the points.
     /// The irradiance at the points, in the tree's order.
     std::vector<IrradianceAtT<T>> records;
-    T radius = T(0); ///< Largest distance of a lookup to a point, in scene units.
-    T disc = T(0);   ///< Largest radius of an estimate, in scene units.
+    /// Largest distance at which a lookup finds a point, in scene units.
+    T radius = T(0);
+    T disc = T(0); ///< Largest radius of an estimate, in scene units.
 
     /// Whether there are no points.
     [[nodiscard]] bool empty() const noexcept { return records.empty(); }
@@ -69,7 +70,7 @@ template <std::floating_point T>
     return false;
 }
 
-/// Whether a point lies above or below a disc whose height is its radius.
+/// Whether a point lies above or below a disc that is as high as its radius.
 /// \param way      The vector from the centre of the disc to the point.
 /// \param normal   Unit normal of the disc.
 /// \param radius2  Squared radius of the disc.
@@ -83,8 +84,9 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The irradiance on one side of a surface from the nearest photons, with
-/// Epanechnikov's kernel. It counts photons that arrived on this side, in a disc whose
-/// height is its radius. With settings.edges the sum is divided by part_on_surface().
+/// Epanechnikov's kernel. It counts photons that arrived on this side, in a disc that
+/// is as high as its radius. If settings.edges is true, the sum is divided by
+/// part_on_surface().
 /// \param world     The closed scene.
 /// \param map       The photons.
 /// \param vertex    The point of the surface.
@@ -256,8 +258,9 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest lookup point with a similar normal. The point must lie
-/// in a disc of radius points.radius, whose height is its radius.
+/// The irradiance at the nearest lookup point with a similar normal. The lookup point
+/// must lie in a disc around `position`. Both the radius and the height of the disc are
+/// points.radius.
 /// \param points    The lookup points.
 /// \param position  A point of a surface.
 /// \param normal    Unit normal on the side of the irradiance.

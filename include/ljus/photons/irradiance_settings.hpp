@@ -17,11 +17,12 @@ struct IrradiancePointSettings {
     /// The n for which every n-th photon becomes a lookup point; at least 2. Estimates
     /// leave out these photons.
     int every = 6;
-    std::size_t nearest = 32; ///< Photons per estimate, 2 to 512.
-    /// Largest radius of an estimate, in scene units; 0: four times the typical radius
-    /// of `nearest` photons.
+    std::size_t nearest = 32; ///< Number of photons per estimate, 2 to 512.
+    /// Largest radius of an estimate, in scene units. 0 stands for four times the
+    /// typical radius of `nearest` photons.
     float radius = 0;
-    int shadow_rays = 4; ///< Shadow rays per light and point; at least 1.
+    /// Number of shadow rays per light and lookup point, at least 1.
+    int shadow_rays = 4;
     /// If the map has fewer indirect photons than this, gather rays use no lookup
     /// points and continue as paths.
     int least = 0;

@@ -17,8 +17,8 @@ namespace ljus {
 
 /// The fraction of Epanechnikov's kernel on one side of a straight line: the integral
 /// of \f$ \frac{8}{3\pi}(1 - t^2)^{3/2} \f$ from t = -1 to s.
-/// \param s  Distance from the centre of the disc to the line, over the radius. It is
-///           negative if the centre lies on the other side.
+/// \param s  Distance from the centre of the disc to the line, divided by the radius.
+///           It is negative if the centre lies on the other side.
 /// \return 0 for s <= -1, 1/2 at s = 0, 1 for s >= 1.
 // [kernel_part]
 template <std::floating_point T>

@@ -20,7 +20,7 @@ namespace ljus {
 /// Settings of the light paths, and of their joints with paths from the eye.
 struct LightPathSettings {
     long long paths = 100000; ///< Number of light paths, at least 1.
-    float radius = 0.02f;     ///< Radius of merging, in scene units; 0: no merging.
+    float radius = 0.02f;     ///< Radius of merging, in scene units; 0 for no merging.
     /// Largest number of surfaces between a light and the eye, at least 1.
     int max_depth = 100;
     std::uint64_t seed = 1;      ///< Seed of the random streams.
@@ -77,9 +77,11 @@ namespace detail {
 
 template <std::floating_point T>
 struct LightStartT {
-    PathStateT<T> path{};     ///< Ray, and flux not yet divided by the number of paths.
-    SurfacePointT<T> point{}; ///< The start; its normal is 0 for a point light.
-    ChosenLightT<T> light{};  ///< Number and probability of the light.
+    /// The ray, and the flux, which is not yet divided by the number of paths.
+    PathStateT<T> path{};
+    /// The point of the light; the normal is 0 for a point light.
+    SurfacePointT<T> point{};
+    ChosenLightT<T> light{}; ///< Number and probability of the light.
 };
 
 /// Starts a light path as emit() does. The result also has the point of the light.

@@ -99,7 +99,7 @@ template <std::floating_point T>
 }
 
 /// The typical radius of a disc that contains a given number of photons: the geometric
-/// mean over discs around photons of a map.
+/// mean of the radii of such discs around photons of a map.
 /// \param map    The photons.
 /// \param count  Number of photons in a disc, 1 to 511.
 /// \param most   The largest number of discs, above 0.

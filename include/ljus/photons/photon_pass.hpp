@@ -27,11 +27,13 @@ enum class MapType : std::uint8_t {
 
 /// A criterion for the distribution of caustic photons among objects; see \ref budget.
 enum class CausticBudget : std::uint8_t {
-    as_seen,   ///< In proportion to the solid angle of an object as seen from a light.
-    equal,     ///< The same number for each object.
-    flux,      ///< Least squared error of the irradiance.
-    area,      ///< Least squared error relative to the mean of each caustic.
-    brightness ///< Least squared error relative to the irradiance of all light.
+    /// In proportion to the solid angle that the object covers as seen from a light.
+    as_seen,
+    equal, ///< The same number of photons for each object.
+    flux,  ///< Minimises the squared error of the irradiance.
+    /// Minimises the squared error relative to the mean irradiance of each caustic.
+    area,
+    brightness ///< Minimises the squared error relative to the irradiance of all light.
 };
 
 /// The random numbers of photons.
@@ -42,12 +44,13 @@ enum class PhotonSampling : std::uint8_t {
 
 /// Settings of a photon pass.
 struct PhotonPassSettings {
-    long long photons = 100000;     ///< Number of paths to emit.
-    std::uint64_t seed = 1;         ///< Seed of the random streams.
-    std::uint64_t iteration = 0;    ///< Index of the repetition.
-    int max_bounces = 1000;         ///< Largest number of surfaces per photon.
-    bool shadow_photons = true;     ///< Whether the general map stores shadow photons.
-    PhotonKinds keep = light_kinds; ///< The kinds to store besides shadow photons.
+    long long photons = 100000;  ///< Number of paths to emit.
+    std::uint64_t seed = 1;      ///< Seed of the random streams.
+    std::uint64_t iteration = 0; ///< Index of the repetition.
+    int max_bounces = 1000;      ///< Largest number of surfaces per photon.
+    bool shadow_photons = true;  ///< Whether the general map stores shadow photons.
+    /// The kinds of photons to store besides shadow photons.
+    PhotonKinds keep = light_kinds;
     /// Whether every light emits the same number of photons, instead of a number in
     /// proportion to its power. This is useful for shadow photons.
     bool equal_lights = false;
@@ -107,7 +110,8 @@ inline constexpr long long photon_block = 512;
 inline constexpr long long pilot_paths = 4 * photon_block;
 
 /// Predicts the memory of a pass and of the map made of its photons. It consists of the
-/// photons, of four numbers per photon for the tree, and of the blocks of a round.
+/// photons, of four numbers per photon for the tree, and of the blocks that are traced
+/// at a time.
 /// \param photons  The number of paths.
 /// \param mean     The number of stored photons per path so far.
 /// \return In bytes.

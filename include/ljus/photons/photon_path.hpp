@@ -145,11 +145,11 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \{
 
 /// Russian roulette for a photon at a surface \cite arvo1990. The probability of
-/// survival is the brightest channel after the reflection over the brightest channel
-/// before. The flux of a survivor is divided by this probability, so that the mean flux
-/// stays the same.
+/// survival is the flux in the brightest channel after the reflection, divided by the
+/// flux in the brightest channel before the reflection. The flux of a survivor is
+/// divided by this probability, so that the mean flux stays the same.
 /// \param flux    Flux before the reflection, in W; not black.
-/// \param weight  f |cos|/pdf of the new direction.
+/// \param weight  BSDF times |cosine| over pdf, for the new direction.
 /// \param u       In [0, 1).
 /// \param audit   Receives the absorbed flux, and the flux lost and gained by roulette.
 /// \return The new flux; nothing if the photon does not survive.
@@ -299,7 +299,7 @@ template <std::floating_point T, Material M, StreamLike Stream>
 /// \param path     The path after next_vertex(). Receives the flux and, if fog scatters
 ///                 the photon, the new ray.
 /// \param before   The flux before next_vertex(); receives the flux at the surface.
-/// \param surface  Distance of the next surface.
+/// \param surface  Distance to the next surface along the path's ray.
 /// \param keep     The kinds that are stored.
 /// \param stream   One number is drawn, and one for each medium; three more if the
 ///                 photon is scattered, of which one is for roulette.
@@ -353,9 +353,9 @@ struct SentPhotonT {
 /// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
 /// A photon that has met only mirrors and glass, L S+ D, is stored in the caustics map
-/// and not in the general map. With PhotonPassSettings::gloss_as_mirrors, a glossy
-/// surface counts as a mirror. After such a surface, the photon is stored only at
-/// surfaces with a diffuse lobe.
+/// and not in the general map. If PhotonPassSettings::gloss_as_mirrors is true, a
+/// glossy surface counts as a mirror. After such a surface, the photon is stored only
+/// at surfaces with a diffuse lobe.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
 /// \param pass    The settings of the pass.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and

@@ -103,11 +103,11 @@ template <NearLight L, std::floating_point T>
 /// The fraction of a light's flux that goes into the cone around a sphere. Nothing if
 /// it does not pay to aim photons into this cone.
 ///
-/// For a direction that is uniform in the cone, let w be the density of emission over
-/// the density of this uniform direction. An aimed photon has a flux in proportion to
-/// w. It is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, where E is the mean.
-/// Without aiming, the fraction \f$ E[w] \f$ of the photons goes into the cone.
-/// Therefore aiming pays if \f$ E[w] > E[w^2] \f$.
+/// For a direction that is uniform in the cone, let w be the density of emission,
+/// divided by the density of this uniform direction. An aimed photon has a flux in
+/// proportion to w. It is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, where E
+/// is the mean. Without aiming, the fraction \f$ E[w] \f$ of the photons goes into the
+/// cone. Therefore aiming pays if \f$ E[w] > E[w^2] \f$.
 /// \param sphere  From lit_sphere().
 /// \cost 64 samples.
 template <AnyWorld W, NearLight L, std::floating_point T>

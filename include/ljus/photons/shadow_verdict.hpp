@@ -21,11 +21,12 @@ namespace ljus {
 /// photons mean that a light is visible, shadow photons that it is occluded.
 enum class SkipRule : std::uint8_t {
     none, ///< Every shadow ray is cast.
-    /// The rule of the report: many photons of one kind, few of the other. The photons
-    /// of all lights are counted together.
+    /// The rule of the report: it needs many photons of one kind and few of the other.
+    /// The photons of all lights are counted together.
     report,
-    any,   ///< At least one photon of one kind, none of the other \cite jensen1995.
-    enough ///< At least photons_needed() of one kind, none of the other.
+    /// Needs at least one photon of one kind and none of the other \cite jensen1995.
+    any,
+    enough ///< Needs photons_needed() photons of one kind and none of the other.
 };
 
 /// Settings for skipping rays. `tolerance` and `risk` are used by SkipRule::enough.
@@ -33,9 +34,11 @@ struct SkipSettings {
     SkipRule rule = SkipRule::none; ///< Rule for shadow rays.
     /// Whether indirect rays are skipped where no indirect photon is near.
     bool indirect_rays = false;
-    float radius = 0; ///< Search radius in scene units; 0: chosen from the photons.
+    /// Search radius in scene units. If it is 0, it is chosen from the photons.
+    float radius = 0;
     float tolerance = 0.05f; ///< Occluded fraction of a light that may be ignored.
-    float risk = 0.05f;      ///< Probability of ignoring a fraction above `tolerance`.
+    /// Probability of ignoring an occluded fraction above `tolerance`.
+    float risk = 0.05f;
 };
 
 /// Checks the settings for skipping rays.

@@ -22,7 +22,7 @@ struct VerdictGridT {
     detail::VerdictBitsT<T> known{}; ///< The verdicts, in bricks of 4 x 4 x 4 cells.
     bool dark_known = false;         ///< Whether indirect photons were counted.
 
-    /// A cell, with a facing of a surface.
+    /// A cell of the grid, for one facing of a surface.
     struct Cell {
         /// The bits of the cell's brick; null if there is no brick.
         const std::uint64_t* bits = nullptr;

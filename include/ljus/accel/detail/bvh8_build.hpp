@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh8_build.hpp
-/// \brief The nodes of the fast tree, and their construction from the plain tree.
+/// \brief The nodes of a wide tree, and their construction from a binary tree.
 
 #include <array>
 #include <cstddef>
@@ -20,21 +20,21 @@ namespace ljus::detail {
 /// rays visit fewer nodes. Chapter: \ref ch_bvh.
 /// \{
 
-/// Chooses which nodes of a plain tree become the children of wide nodes. The sum of
-/// the surface areas of all wide nodes is as small as possible, because the probability
-/// that a ray visits a node is proportional to the node's area \cite ylitie2017.
+/// Chooses which nodes of a binary tree become the children of wide nodes. It minimises
+/// the sum of the surface areas of all wide nodes, because the probability that a ray
+/// visits a node is proportional to the node's area \cite ylitie2017.
 ///
-/// A plain node gets i slots of a wide node. Either it becomes a wide node of its own
-/// in one slot, or its two children share the i slots. Dynamic programming finds the
-/// cheaper choice for each i, from the leaves up.
+/// Let a binary node have i slots of a wide node. Either the binary node becomes a wide
+/// node of its own in one slot, or its two children share the i slots. Dynamic
+/// programming finds the cheaper choice for each i, from the leaves up.
 template <std::floating_point T>
 class BvhCollapse {
 public:
     static constexpr int width = 8; ///< Largest number of children of a wide node.
 
-    /// The children of one wide node, as nodes of the plain tree.
+    /// The children of one wide node, as nodes of the binary tree.
     struct Children {
-        std::array<std::uint32_t, width> node{}; ///< Indices of plain nodes.
+        std::array<std::uint32_t, width> node{}; ///< Indices in the binary tree.
         std::size_t count = 0;                   ///< Number of children.
     };
 
@@ -56,8 +56,8 @@ public:
     }
 
     /// The children of a wide node.
-    /// \param from  The plain node that becomes the wide node. It is an inner node, or
-    ///              a root without children, which becomes its own only child.
+    /// \param from  The binary node that becomes the wide node. It is an inner node or
+    ///              a root without children. Such a root becomes its own only child.
     [[nodiscard]] Children children(std::uint32_t from) const {
         Children result;
         const BvhNodeT<T>& node = tree_.nodes[from];
@@ -127,8 +127,9 @@ struct Bvh8Node {
 /// number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    static constexpr int count_shift = 27;          ///< The lowest bit of count - 1.
-    /// The bits of the slot.
+    /// The lowest of the bits that hold the number of primitives minus 1.
+    static constexpr int count_shift = 27;
+    /// The bits of a leaf's first slot.
     static constexpr std::uint32_t first = (1u << count_shift) - 1;
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {
@@ -153,7 +154,7 @@ struct Bvh8Nodes {
     static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
 };
 
-// Writes the wide node for the plain node `from` to position `to`, and adds its
+// Writes the wide node for the binary node `from` to position `to`, and adds its
 // subtree.
 template <std::floating_point T>
 void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
@@ -191,8 +192,8 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
             add_wide_node(wide, tree, collapse, open[i],
                           node.child[i] / Bvh8Child::stride, multiple);
 }
-/// Collapses a plain tree into a wide tree.
-/// \param tree      The plain tree. Its leaves have at most 16 primitives.
+/// Collapses a binary tree into a wide tree.
+/// \param tree      The binary tree. Its leaves have at most 16 primitives.
 /// \param multiple  The first slot of each leaf is a multiple of this number. Unused
 ///                  slots between leaves are padding.
 /// \throws std::invalid_argument  if there are 2^27 slots or more.

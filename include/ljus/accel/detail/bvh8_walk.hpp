@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/bvh8_walk.hpp
-/// \brief The traversal of the fast tree by a ray.
+/// \brief The traversal of a wide tree by a ray.
 
 #include <array>
 #include <bit>
@@ -17,22 +17,24 @@ namespace ljus::detail {
 
 /// A ray prepared for wide nodes.
 struct Bvh8Ray {
-    Vec3 inverse{1};    ///< 1 over the direction; finite also where the direction is 0.
+    Vec3 inverse{1};    ///< 1 over the direction, per component; always finite.
     Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
-    Vec3 far_shift{0};  ///< The same for far planes.
-    /// For each axis, the plane that the ray meets first.
+    Vec3 far_shift{0};  ///< The shift of the far planes.
+    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
+    /// first.
     std::array<std::size_t, 3> near{};
-    /// For each axis, the plane that the ray meets last.
+    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
+    /// last.
     std::array<std::size_t, 3> far{};
     float length = 0; ///< The direction's largest absolute component.
     float last = 0;   ///< The largest t that is searched.
-    /// Whether products of three lengths are finite, as in the tests of triangles.
+    /// Whether products of three lengths, as in conservative_filter(), are finite.
     bool moderate = false;
 };
 
 /// Prepares a ray. The two shifts enlarge the boxes by the margin of box_ray(). A
 /// component of the direction that is close to 0 is replaced by a small number. Within
-/// the box this moves the ray by less than the margin.
+/// the tree's box, this replacement moves the ray by less than the margin.
 /// \return False if the square of the direction's length or of the distance to the box
 ///         is outside the range of float.
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,

@@ -80,7 +80,7 @@ struct KdTree8PartsT {
     KdTree8Shape shape{};                 ///< The layout.
     StoredArray<KdTree8NodeT<T>> nodes{}; ///< The nodes, level by level.
     StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
-    StoredArray<std::uint32_t> order{};   ///< Each point's index in the given list.
+    StoredArray<std::uint32_t> order{};   ///< Each point's index before the build.
 
     /// The point at an index.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
@@ -107,8 +107,8 @@ public:
     using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read. Other lists of the same thread use them again, because
-    /// memory that one thread frees may not be available to other threads.
+    /// Pieces that were read. Other lists of the same thread use them again. If they
+    /// were freed instead, other threads might not get their memory.
     using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.

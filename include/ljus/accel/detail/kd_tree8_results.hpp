@@ -16,7 +16,7 @@
 
 namespace ljus::detail {
 
-/// A result set for walk() that visits all points within reach, leaf by leaf.
+/// A result set for walk(). It visits all points within reach, leaf by leaf.
 /// \tparam Visit  Called as visit(first block, bits of the points). If it returns true,
 ///                the search ends.
 template <std::floating_point T, typename Visit>
@@ -35,7 +35,7 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    /// The limit: it excludes the distance of the nearest point so far.
+    /// The limit of the search. It excludes the distance of the nearest point so far.
     ReachT<T> reach;
     std::optional<Neighbor> best{}; ///< The nearest point so far.
 
@@ -144,15 +144,15 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-/// A result set for walk() that finds the k nearest points, for k up to max_counted. It
-/// gathers candidates. When there are `enough` candidates, select_smallest() finds the
-/// k-th distance, which becomes the reach.
+/// A result set for walk(). It finds the k nearest points, for k up to max_counted, by
+/// collecting candidates. When there are `enough` candidates, select_smallest() finds
+/// the k-th smallest distance, which becomes the reach.
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach;        ///< The limit: about the k-th distance so far.
+    ReachT<T> reach;        ///< The limit: about the k-th smallest distance so far.
     Wanted& wanted;         ///< Whether a point counts.
-    const std::size_t k;    ///< Number of points wanted.
+    const std::size_t k;    ///< Number of points to be found.
     std::size_t enough = k; ///< Number of candidates at which the reach is shortened.
     std::size_t count = 0;  ///< Number of candidates.
     CandidatesT<T> all;     ///< The candidates.
@@ -192,8 +192,9 @@ struct NearestCountedT {
         keep_nearest(all, count, k, tree, center, reach);
         count = k;
     }
-    /// Writes the points found into `found`, the farthest first, and returns their
-    /// number.
+    /// Writes the points into `found`. The first one is the farthest, and the others
+    /// are unsorted.
+    /// \return The number of points.
     [[nodiscard]] std::size_t give(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
                                    std::span<Neighbor> found) {
         if (count > k) shrink(tree, center);
@@ -207,12 +208,12 @@ struct NearestCountedT {
     }
 };
 
-/// A result set for walk() that finds the k nearest points, for any k. It uses the heap
-/// of the plain tree.
+/// A result set for walk(). It finds the k nearest points, for any k, by the heap of
+/// KdTreeT.
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< The limit: it excludes the k-th distance so far.
+    ReachT<T> reach; ///< The limit; it excludes the k-th smallest distance.
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest points so far.
 

@@ -13,9 +13,9 @@
 
 namespace ljus::detail {
 
-/// The number in the middle between two others in the list of all values of T. Repeated
-/// halving of an interval at this number ends after at most as many steps as T has
-/// bits.
+/// The number halfway between two others in the ordered list of all values of T. An
+/// interval that is repeatedly halved at this number is used up after at most as many
+/// steps as T has bits.
 template <std::floating_point T>
 [[nodiscard]] constexpr T middle_in_bits(T low, T high) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
@@ -58,7 +58,8 @@ struct Extremes {
 /// \param count   The number of values.
 /// \param above   Exclusive lower bound of the smallest.
 /// \param up_to   Inclusive upper bound of the largest; finite or minus infinity.
-/// \return Both values. If there is no such value, infinity and minus infinity.
+/// \return Both values. Infinity if there is no smallest value, and minus infinity if
+///         there is no largest one.
 template <std::floating_point T>
 [[nodiscard]] constexpr Extremes<T>
 smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexcept {
@@ -94,7 +95,7 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
 /// \param spare   By how much the rank of the result may exceed k. A larger number
 ///                saves passes.
 /// \return The smallest number that at least k values do not exceed. If `spare` is
-///         above 0, it may be any number that k to k + spare values do not exceed.
+///         above 0, any number that k to k + spare values do not exceed.
 /// \cost About five passes, and at most a hundred in float or two hundred in double. A
 ///       pass has a comparison and an addition per eight values.
 // [select]

@@ -46,7 +46,7 @@ struct Radicals {};
 
 namespace detail {
 
-/// The largest absolute slope of \f$ (1 - q^2)^2 \f$, which it has at
+/// The largest absolute slope of \f$ (1 - q^2)^2 \f$ for q in [0, 1]: the slope at
 /// \f$ q = 1/\sqrt 3 \f$.
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
@@ -111,7 +111,7 @@ struct StrandsT {
 /// The field of metaballs along a ray. It satisfies FieldOnRay and SlopeOnRay.
 template <std::floating_point C>
 struct MetaballLineT {
-    std::span<const StrandT<C>> strands{}; ///< The blobs that the ray meets.
+    std::span<const StrandT<C>> strands{}; ///< The fields of the blobs along the ray.
     C level = C(0);                        ///< L, the level of the surface.
     C enter = C(0);                        ///< The t at which the first strand begins.
     C leave = C(-1);                       ///< The t at which the last strand ends.
@@ -152,7 +152,7 @@ struct MetaballLineT {
         return sum;
     }
     /// An interval that contains all slopes df/dt in [from, to]. The slope of a strand
-    /// is -4 w k (t - m) s.
+    /// is -4 w k (t - m) s; see StrandT.
     [[nodiscard]] IntervalT<C> slope(C from, C to) const noexcept {
         IntervalT<C> sum;
         for (const auto& b : strands) {
@@ -307,8 +307,8 @@ template <std::floating_point C>
 /// Finds the first hit of a ray on metaballs, span by span.
 /// \report{Section 2.1}
 /// \return The first t where f changes its sign; nothing for a miss.
-/// \cost A ray that meets n blobs has at most 3 n - 1 spans. A span costs n additions
-///       of a quartic and at most 10 roots of first_change().
+/// \cost A ray that meets n blobs has at most 3 n - 1 spans. For each span, n quartics
+///       are added, and first_change() finds at most 10 roots.
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)

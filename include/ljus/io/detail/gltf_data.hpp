@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/gltf_data.hpp
-/// \brief The numbers of a glTF file: buffers, views of them, and accessors.
+/// \brief Reads the numbers of a glTF file from its buffers, by buffer views and
+/// accessors.
 
 #include <cmath>
 #include <map>

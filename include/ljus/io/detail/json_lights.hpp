@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/json_lights.hpp
-/// \brief The lights of a scene file that are not objects, and its fog.
+/// \brief The fog of a scene file, and its lights that are not objects.
 
 #include <nlohmann/json.hpp>
 

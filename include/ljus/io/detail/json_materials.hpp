@@ -28,8 +28,9 @@
 
 namespace ljus::detail {
 
-/// The largest number of energy loss tables that full-glossy and full-rough-metal may
-/// need; each takes some hundredths of a second.
+/// The largest number of energy loss tables for the materials full-glossy and
+/// full-rough-metal of a scene file. To compute a table takes some hundredths of a
+/// second.
 inline constexpr std::size_t max_loss_tables = 64;
 
 // Data that the materials of a file share.

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/json_members.hpp
-/// \brief Tables of the members that objects of a scene file may have, and their check.
+/// \brief Tables of the members that objects of a scene file may have. Objects are
+/// checked by these tables.
 
 #include <array>
 #include <cstdint>

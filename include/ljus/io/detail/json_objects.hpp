@@ -35,7 +35,8 @@ using FileSceneT = Scene<
            GoniometricLightT<T>>,
     Media<Fog<SphereT<T>>, Fog<BoxT<T>>>>;
 
-/// The default of load_json() for mesh files: it throws, because nothing reads them.
+/// The default reader of mesh files in load_json(). It reads nothing and throws an
+/// exception that names MeshFiles.
 template <std::floating_point T>
 struct NoMeshesT {
     [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
@@ -183,13 +184,14 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
     return pair_triangles<T>(points, triangles);
 }
 
-/// Limits for a mesh file that a scene names several times: how often it is read, each
-/// time with another scale or other normals; and the number of triangles of all its
-/// unchanged copies.
+/// Limits for mesh files that a scene names several times. A file is read again only
+/// for another scale, other normals or other materials, at most 16 times in all. If a
+/// scene names a file again with the same values, the meshes are copied; all copies
+/// together have at most 2^22 triangles.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
-/// The largest number of triangles of all instances together. It is limited because the
-/// area of a stretched instance is a sum over its triangles.
+/// The largest number of triangles of all instances together. The number is limited
+/// because the area of a stretched instance is computed as a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
 // How an object names a mesh file, and whether it is made of the file's materials.

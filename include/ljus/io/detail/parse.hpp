@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/parse.hpp
-/// \brief The lines, words and numbers of a file, in text and in binary.
+/// \brief Reads lines, words and numbers from text files, and numbers from binary
+/// files.
 
 #include <algorithm>
 #include <bit>

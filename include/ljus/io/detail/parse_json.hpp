@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/parse_json.hpp
-/// \brief A strict JSON parser: no duplicate members, limited depth, finite numbers.
+/// \brief A JSON parser that refuses duplicate members, deep nesting and numbers that
+/// are not finite.
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_colors.hpp
-/// \brief Finds out whether a PNG, JPEG or BMP file declares other colours than those
-/// of sRGB.
+/// \brief Finds out whether a PNG, JPEG or BMP file declares a colour space other than
+/// sRGB.
 
 #include <array>
 #include <cmath>
@@ -128,7 +128,7 @@ inline std::string other_profile(const Bytes& bytes) {
                         : join({"its colour profile '", name, "'"});
 }
 
-// Names the chunk of a PNG file that declares other colours than those of sRGB; empty
+// Names the chunk of a PNG file that declares a colour space other than sRGB; empty
 // if there is none. If several chunks describe colours, cICP counts before iCCP, sRGB
 // and cHRM (PNG 3, section 4.3). inflate(data, size) unpacks a profile.
 template <typename Inflate>
@@ -164,7 +164,7 @@ std::string png_other_colors(const Bytes& file, Inflate inflate) {
     return are_srgb_primaries(xy) ? "" : "its cHRM chunk";
 }
 
-// Names the part of a JPEG file that declares other colours than those of sRGB; empty
+// Names the part of a JPEG file that declares a colour space other than sRGB; empty
 // if there is none. A profile is cut into numbered segments. Cameras declare Adobe RGB
 // in their EXIF data only.
 inline std::string jpeg_other_colors(const Bytes& file) {
@@ -189,7 +189,7 @@ inline std::string jpeg_other_colors(const Bytes& file) {
     return adobe ? "its EXIF data" : "";
 }
 
-// Names the part of a BMP file that declares other colours than those of sRGB; empty if
+// Names the part of a BMP file that declares a colour space other than sRGB; empty if
 // there is none. The header may give primaries and a gamma, or a profile.
 inline std::string bmp_other_colors(const Bytes& file) {
     const std::size_t head = BmpHead(file).size;

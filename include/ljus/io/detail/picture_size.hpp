@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_size.hpp
-/// \brief The largest number of pixels in all pictures of a file together.
+/// \brief A limit for the number of pixels in all pictures of a file together.
 
 #include <string>
 
@@ -9,7 +9,8 @@
 
 namespace ljus::detail {
 
-/// The largest number of pixels: 8192 x 4096, or half as many in a 16-bit PNG file.
+/// The largest number of pixels in all pictures of a file together: 8192 x 4096. A
+/// single 16-bit PNG picture may have half as many.
 inline constexpr int max_image_pixels = 1 << 25;
 
 // Why a picture is too large, if other pictures already have `others` pixels; empty if

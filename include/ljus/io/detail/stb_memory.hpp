@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/stb_memory.hpp
-/// \brief The memory of stb_image_write and stb_image, for png.hpp and load_image.hpp.
+/// \brief Allocates the memory that stb_image_write and stb_image use in png.hpp and
+/// load_image.hpp.
 
 #include <cstddef>
 #include <cstdlib>

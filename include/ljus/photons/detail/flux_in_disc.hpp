@@ -25,8 +25,8 @@ struct FluxDiscT {
     /// Unit normal of the side on which photons count.
     Vec3T<T> from{T(0), T(0), T(1)};
     T radius = T(1);      ///< The radius in scene units, between 1e-15 and 1e15.
-    T thickness = T(0.5); ///< Half the height of the disc over the radius.
-    K kernel{};           ///< The weight by distance.
+    T thickness = T(0.5); ///< Half the height of the disc, divided by the radius.
+    K kernel{};           ///< Gives the weight of a photon by its distance.
     PhotonKinds kinds = all_kinds; ///< The kinds of photons that count.
 };
 

@@ -73,7 +73,7 @@ class PhotonRecordsT {
 public:
     PhotonRecordsT() = default;
 
-    /// Takes records.
+    /// Makes the list from blocks.
     /// \param blocks  All records, in blocks of eight. The last block is padded with 0.
     /// \param count   The number of records.
     PhotonRecordsT(StoredArray<RecordBlockT<T>> blocks, std::size_t count) noexcept

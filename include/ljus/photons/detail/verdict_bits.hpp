@@ -16,7 +16,7 @@
 
 namespace ljus::detail {
 
-/// A cell of the grid, with a facing of a surface.
+/// A cell of the grid, for one facing of a surface; see facing().
 struct VerdictCell {
     std::int32_t x = 0;   ///< Number of the cell along the x axis; at least 0.
     std::int32_t y = 0;   ///< Number of the cell along the y axis; at least 0.
@@ -136,9 +136,9 @@ struct VerdictBitsT {
     CellsT<T> cells{};      ///< Geometry of the cells.
     std::size_t lights = 0; ///< Number of lights.
     BrickTable table{};     ///< The existing bricks.
-    /// For each brick, first two elements per light: a bit for each lit cell, and a bit
-    /// for each cell in shadow. Then one element: a bit for each cell with an indirect
-    /// photon near.
+    /// Each brick has two elements per light: the first has a bit for each lit cell,
+    /// the second a bit for each cell in shadow. A last element has a bit for each cell
+    /// with an indirect photon near.
     std::vector<std::uint64_t> bits{};
 
     /// Number of elements of `bits` per brick.
@@ -271,7 +271,7 @@ counts_around(const BrickTable& table, std::uint32_t brick,
 }
 
 /// Adds to the counts of each cell of a brick those of its 26 neighbours.
-/// \param sums  The result of counts_around(). Receives the sums: that of the cell
+/// \param sums  The result of counts_around(). Receives the sums. The sum of the cell
 ///              (x, y, z) of the brick is at x + 6 y + 36 z.
 constexpr void add_neighbors(CountsAround& sums) noexcept {
     for (const std::size_t step : {1u, 6u, 36u})
