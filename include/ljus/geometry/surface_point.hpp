@@ -136,12 +136,12 @@ template <std::floating_point T>
             .time = time};
 }
 
-/// A ray between two points on surfaces that hits neither surface.
+/// A ray from one surface point to another. It hits neither surface at its ends.
 ///
 /// The rounding error of a hit grows with the length of the ray. The ray therefore ends
-/// before `to`, by this error. Otherwise a lamp could shadow itself from a distant
+/// short of `to` by this error. Otherwise a lamp could shadow itself from a distant
 /// point.
-/// \return The ray. It ends at t = 1, and its direction is as long as the distance.
+/// \return The ray. Its direction is the vector from its origin to its end, at t = 1.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,

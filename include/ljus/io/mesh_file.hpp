@@ -116,7 +116,8 @@ template <std::floating_point T>
 struct LoadedMeshT {
     std::vector<MeshPartT<T>> parts{}; ///< The parts, one per material, in order of
                                        ///< first use.
-    MeshReport report{};               ///< The problems of the file, and counts.
+    MeshReport report{};               ///< The problems of the file, and the numbers of
+                                       ///< its elements.
     /// The pictures of the materials, by name: colours, alpha and normals. Pictures
     /// that cannot be read are missing.
     std::map<std::string, ImageT<T>> pictures{};

@@ -198,8 +198,9 @@ template <std::floating_point T>
                      std::lerp(high[0], high[1], azimuth->part), polar->part);
 }
 
-/// The frame of a table's angles in the world: the normal is the pole, the tangent the
-/// direction of azimuth 0.
+/// The coordinate frame, in the world, in which the angles of a light's table are
+/// measured. Its normal is the direction of the pole, and its tangent is the direction
+/// of azimuth 0.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_of(const GoniometricLightT<T>& light) {
     const Vec3T<T> aim = unit_along("goniometric light.direction", light.direction);

@@ -42,7 +42,7 @@ struct MixtureT {
     T index = T(1.5);         ///< Index of refraction inside.
     T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
     T emissivity = T(0);      ///< Emitted radiance / color, in W/(m^2 sr), >= 0.
-    T sigma = T(0);           ///< Roughness of the matt lobe, in radians; 0: Lambert.
+    T sigma = T(0);           ///< Sigma of the matt lobe, in radians; see OrenNayar.
     RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.

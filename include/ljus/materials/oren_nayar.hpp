@@ -28,8 +28,9 @@ template <std::floating_point T>
 struct OrenNayarT {
     using Scalar = T;       ///< The precision of its numbers.
     RgbT<T> albedo{T(0.5)}; ///< Albedo of a facet, in [0, 1].
-    T sigma =
-        T(0.3); ///< Standard deviation of the slope angle, in radians; 0: Lambert.
+    /// Standard deviation of the slope angle, in radians. If it is 0, the surface is
+    /// Lambertian.
+    T sigma = T(0.3);
 };
 using OrenNayar = OrenNayarT<float>; ///< OrenNayarT in float.
 

@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup fog Fog
-/// \brief Beyond the report: light that is scattered between the surfaces
+/// \brief Beyond the report: media, such as fog or smoke, that absorb and scatter light
 /// \cite novak2018. Chapter: \ref ch_fog.
 /// \{
 

@@ -87,9 +87,10 @@ struct LightEnd {
     return {from.join * distance2 / cosine, from.further / cosine};
 }
 
-/// The sum of densities in SubpathWeights, for one of the two subpaths of a connection.
-/// \param at       The weights at x.
-/// \param density  Density of x for a path from the other vertex, per area.
+/// The sum of the densities of all strategies whose joint lies on one subpath of a
+/// connection, relative to the density of the connection; see SubpathWeights.
+/// \param at       The weights at x, the last vertex of this subpath.
+/// \param density  Density, per area, with which a path from the other vertex finds x.
 /// \param back     Density of the direction from x to the vertex before x, per
 ///                 steradian.
 /// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.

@@ -420,9 +420,9 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 }
 
 /// The number of rows of blocks in a band. Each band is finished before the next one
-/// begins, which saves memory. With `disagreement`, without a target and with at least
-/// `first` + `more` samples, the rays of a block depend only on the blocks around it,
-/// so that a band may be short. In all other cases one band contains all rows.
+/// begins, which saves memory. A band may be short if the rays of a block depend only
+/// on the blocks around it. This requires `disagreement`, no target, and at least
+/// `first` + `more` in picture.samples. In all other cases one band contains all rows.
 [[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
                                       const AdaptiveSettings& rule) noexcept {
     const int all = static_cast<int>(block_count(picture.height, rule.block));

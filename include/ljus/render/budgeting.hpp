@@ -11,8 +11,8 @@ namespace ljus {
 /// \addtogroup budget
 /// \{
 
-/// The ability that PhotonMappingSettings::caustic_budget needs; it is listed as
-/// `abilities<Budgeting>`.
+/// The ability that PhotonMappingSettings::caustic_budget needs. Pass
+/// `abilities<Budgeting>` to the renderer.
 struct Budgeting {
     /// Budgeting has no state. The mapper keeps the shares in
     /// PhotonMapper::settings().caustics, as `shares` and `light_shares`.

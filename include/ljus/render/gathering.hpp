@@ -11,8 +11,8 @@ namespace ljus {
 /// \addtogroup final_gathering
 /// \{
 
-/// The ability that IndirectLight::gather and IndirectLight::cache need; it is listed
-/// as `abilities<Gathering>`.
+/// The ability that IndirectLight::gather and IndirectLight::cache need. Pass
+/// `abilities<Gathering>` to the renderer.
 struct Gathering {
     /// The data that a mapper keeps for gathering.
     template <std::floating_point T>

@@ -11,8 +11,8 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// The ability that PhotonMappingSettings::skip needs; it is listed as
-/// `abilities<Skipping>`.
+/// The ability that PhotonMappingSettings::skip needs. Pass
+/// `abilities<Skipping>` to the renderer.
 struct Skipping {
     /// The data that a mapper keeps for skipping.
     template <std::floating_point T>

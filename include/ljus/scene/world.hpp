@@ -137,7 +137,7 @@ template <typename Compute, std::floating_point T, typename S>
         return hit_of<Compute>(ray, shape).has_value();
 }
 
-/// The types that a list of lights has within a World.
+/// The type in which a World stores a scene's list of lights.
 template <typename LightList>
 struct KeptLights;
 /// For a list with one array per type of light.
@@ -335,19 +335,21 @@ public:
                                    []<typename L>(const L&) { return FillsSky<L>; });
         return !lights_[light].is_light;
     }
-    /// Calls f(shape) with the shape of an object, in its own type.
+    /// Calls f(shape) with the shape of an object. The argument has the shape's
+    /// concrete type.
     template <typename F>
     decltype(auto) visit_shape(ObjectId id, F&& f) const {
         return detail::visit_element(shapes_, id.type, id.index, f);
     }
-    /// Calls f(material) with a material, in its own type.
+    /// Calls f(material) with the material of an id. The argument has the material's
+    /// concrete type.
     template <typename F>
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light, in its own type. This is an AreaLightT or a
-    /// PictureLightT for an emissive object; for other lights it is the result of
-    /// in_scene().
+    /// Calls f(light) with a light. The argument has the light's concrete type. This is
+    /// an AreaLightT or a PictureLightT for an emissive object; for other lights it is
+    /// the type of the result of in_scene().
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const AddedId& id = lights_[number];

@@ -102,7 +102,8 @@ void add_report_room(S& scene) {
 /// \defgroup report_rooms The report's scenes
 /// \brief Figures 1, 11, 12, 13 and 15: the objects in the report's room.
 ///
-/// The materials of the report's program, and their counterparts here:
+/// The table lists the materials of the report's program and their counterparts here.
+/// Lengths are in scene units, radiances in W/(m^2 sr).
 ///
 /// | the report's program                | here                                     |
 /// |-------------------------------------|------------------------------------------|

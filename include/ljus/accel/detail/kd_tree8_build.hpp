@@ -113,7 +113,7 @@ public:
 
     /// The number of items.
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Item number i, which must not have been drained.
+    /// Item number i. Its piece must not have been freed by drain().
     [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
         return pieces_[i / piece][i % piece];
     }

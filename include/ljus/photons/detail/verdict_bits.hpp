@@ -297,7 +297,7 @@ judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexc
     return bits;
 }
 
-/// Computes the bits of all bricks.
+/// Computes a verdict grid from photons, stored as bits in bricks of 4 x 4 x 4 cells.
 /// \throws std::invalid_argument  if there would be more than most_bricks bricks.
 template <std::floating_point T>
 [[nodiscard]] VerdictBitsT<T> make_bits(const std::vector<PhotonT<T>>& photons,
