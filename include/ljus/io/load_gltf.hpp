@@ -35,8 +35,9 @@ namespace ljus {
 /// together.
 ///
 /// The intensities of KHR_lights_punctual are read as W/sr instead of candela, and as
-/// W/m^2 instead of lux. Intensities are multiplied by the square of `scale`, so that
-/// the irradiance on surfaces does not depend on the scale.
+/// W/m^2 instead of lux. The intensities of point lights and spots are multiplied by
+/// the square of `scale`, so that the irradiance on surfaces does not depend on the
+/// scale.
 /// \param bytes     The bytes of the file.
 /// \param file      The path of the file, for messages. Buffers and pictures are looked
 ///                  for in its folder.
@@ -46,9 +47,11 @@ namespace ljus {
 ///         other extensions.
 /// \throws std::runtime_error  if the file breaks the format or requires an unknown
 ///         extension, with one sentence: "a.gltf: accessors[2] has 36 elements of 12
-///         bytes, which do not fit into the 288 bytes of its view."; or as read_obj().
+///         bytes, which do not fit into the 288 bytes of its view."
+/// \throws std::runtime_error  as read_obj().
 /// \throws std::invalid_argument  unless the scale is finite and above 0.
-/// \cost Linear in the size of the files and the number of triangles, at most 2^23.
+/// \cost Linear in the size of the files and the number of triangles, which is
+///       at most 2^23.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> read_gltf(Bytes bytes, const std::string& file,
                                        const MeshFileSettings& settings = {}) {

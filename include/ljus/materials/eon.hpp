@@ -56,9 +56,9 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// Pi times the BRDF: Fujii's second model, plus the light that it loses, by
-/// \ref multiple_scattering. The factor A r, by which eon_loss() divides, cancels. A
-/// roughness of 0 therefore needs no special case.
+/// Pi times the BRDF. The BRDF is Fujii's second model plus a term for the light that
+/// this model loses; see \ref multiple_scattering. The factor by which eon_loss()
+/// divides cancels. A roughness of 0 therefore needs no special case.
 /// \param wo, wi   Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, four square roots, eight divisions.

@@ -108,9 +108,9 @@ template <std::floating_point T>
 
 /// The density of sample_uniform_cone(), per steradian, for a direction inside the
 /// cone. The caller tests whether the direction is inside.
-/// \param one_minus_cos_max  1 - cos(theta_max) for the half angle theta_max, in (0,
-///                           2].
-/// \return 1 over the solid angle of the cone, 2 pi (1 - cos(theta_max)).
+/// \param one_minus_cos_max  1 - cos(theta_max), in (0, 2], where theta_max is the half
+///                           angle.
+/// \return 1 over the solid angle of the cone, which is 2 pi (1 - cos(theta_max)).
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);

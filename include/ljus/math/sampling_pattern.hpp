@@ -209,9 +209,9 @@ template <std::floating_point T>
 /// \param key      The pixel's key. The points of two pixels are independent if their
 ///                 keys differ; mix_bits() makes good keys of consecutive numbers.
 /// \param u        Two random numbers in [0, 1); Sobol points do not use them.
-/// \return Point of the unit square, uniform over keys and u; rounding may put it onto
-///         1.
-/// \cost Some nanoseconds; the chapter has a table for 61 and for 64 points.
+/// \return Point of the unit square, uniform over keys and u. A coordinate may be
+///         rounded to 1.
+/// \cost Some nanoseconds; \ref ch_first_picture has a table for 61 and for 64 points.
 /// \report{Section 3.2}
 // [spread]
 template <std::floating_point T>

@@ -29,7 +29,7 @@ struct EnergyLossT {
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
     /// The fraction of the whole loss that lies at smaller cosines.
     std::array<T, cells + 1> below{};
-    T mean = T(0); ///< 1 minus the mean of E over the hemisphere.
+    T mean = T(0); ///< The cosine-weighted mean of the loss over the hemisphere.
 };
 
 /// The cosine at a position of the table, \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$. The

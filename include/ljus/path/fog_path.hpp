@@ -170,7 +170,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     // [fly]
 }
 
-/// The radiance from one light that fog scatters back along a path, by one shadow ray.
+/// Casts a shadow ray from a point in fog to a light, and returns the light that fog
+/// scatters back along the path.
 /// \param world   The closed scene.
 /// \param light   The index of the light.
 /// \param vertex  The point in fog.
@@ -241,14 +242,15 @@ template <Medium M, std::floating_point T>
 
 } // namespace detail
 
-/// The radiance from one light that fog scatters at a vertex from fly(), by one shadow
-/// ray. The light is chosen in proportion to its power.
+/// Estimates the light that fog scatters back along a path at a vertex from fly(). One
+/// light is chosen in proportion to its power, and one shadow ray is cast towards it.
 /// \param world       The closed scene, with at least one light.
 /// \param segment     The segment.
 /// \param vertex      The vertex from fly().
 /// \param throughput  The throughput of the path after fly().
-/// \param heuristic   The weights of this ray and of a scattered ray.
-/// \param how         The weights of this vertex and of equi-angular sampling.
+/// \param heuristic   How light is divided between this ray and a scattered ray.
+/// \param how         How light is divided between this vertex and the points from
+///                    equi-angular sampling.
 /// \param context     Three numbers are drawn; the ray is counted.
 /// \return Throughput times radiance times the weights.
 template <AnyWorld W, std::floating_point T, typename Context>
@@ -273,13 +275,15 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return throughput * light / chosen.probability;
 }
 
-/// The radiance from one light that fog scatters on a segment, by one shadow ray. The
-/// light is chosen in proportion to its power. The ray starts at a point from
-/// equi-angular sampling, which favours points near the light \cite kulla2012.
+/// Estimates the light that fog scatters back along a segment. One light is chosen in
+/// proportion to its power, and one shadow ray is cast towards it. The ray starts at a
+/// point from equi-angular sampling, which favours points near the light
+/// \cite kulla2012.
 /// \param world      The closed scene, with at least one light.
 /// \param segment    The segment, outside all bodies.
-/// \param heuristic  The weights of this ray and of a scattered ray.
-/// \param how        The weights of this point and of the vertices from fly().
+/// \param heuristic  How light is divided between this ray and a scattered ray.
+/// \param how        How light is divided between this point and the vertices from
+///                   fly().
 /// \param context    Five numbers are drawn; the ray is counted.
 /// \return Throughput times radiance times the weights; 0 for FogLight::flight.
 // [aimed light]

@@ -18,9 +18,11 @@ namespace ljus {
 
 /// A line of a PathLog.
 struct PathLogLine {
-    std::string path;       ///< Letters of the path, beginning with E at the camera.
-    std::string what;       ///< "vertex", or the name of the estimator of a term.
-    glm::dvec3 value{0};    ///< Throughput after a vertex, or radiance of a term.
+    std::string path; ///< Letters of the path, beginning with E at the camera.
+    std::string what; ///< "vertex", or the name of an estimator of light.
+    /// For a vertex, the throughput after it. For an estimator, throughput times
+    /// radiance, in W/(m^2 sr).
+    glm::dvec3 value{0};
     glm::dvec3 position{0}; ///< Position of the last vertex so far.
     /// Density of the next direction, per steradian; 0 after a specular lobe.
     double pdf = 0;

@@ -37,8 +37,11 @@ namespace ljus {
 /// direction from x to the vertex before x; and \f$\eta = N \pi r^2\f$ is the term of
 /// merging at x, with N light paths and the radius r.
 struct SubpathWeights {
-    double join = 0;    ///< The term of a connection of x and the vertex before x.
-    double further = 0; ///< The term of all earlier joints.
+    /// The term of the sum for the strategy that connects the last vertex, x, to the
+    /// vertex before x.
+    double join = 0;
+    /// The term of the sum for all strategies that join the subpaths earlier.
+    double further = 0;
 };
 
 /// The densities at the end of a path on a light.

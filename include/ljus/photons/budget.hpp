@@ -56,9 +56,11 @@ struct CausticPilot {
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
     double area = 0;        ///< Area of the caustic: flux divided by mean irradiance.
     double absolute = 0;    ///< Scatter of the irradiance, in W.
-    /// Scatter relative to the caustic's mean irradiance, in squared scene units.
+    /// The scatter, as in share_out(), of the irradiance divided by the mean irradiance
+    /// of the caustic; in squared scene units.
     double relative = 0;
-    /// Scatter relative to the irradiance of all light, in squared scene units.
+    /// The scatter, as in share_out(), of the irradiance divided by the irradiance of
+    /// all light; in squared scene units.
     double visible = 0;
 };
 

@@ -32,7 +32,8 @@ enum class Kernel : std::uint8_t {
     box,  ///< The constant 1, as in the report.
     cone, ///< 1 - d/r: Jensen's cone filter with the constant k = 1 \cite jensen2001.
     gaussian, ///< exp(-2 d^2 / r^2), up to d = r.
-    /// 1 - d^2/r^2, with the least variance at equal bias \cite silverman1986.
+    /// 1 - d^2/r^2, for the distance d and the radius r. This kernel has the least
+    /// variance at equal bias \cite silverman1986.
     epanechnikov,
     biweight ///< (1 - d^2/r^2)^2, which is smooth at the border.
 };

@@ -55,8 +55,9 @@ using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes
 
 /// How the flux of photons in fog is spread.
 struct BeamEstimateSettings {
-    /// Radius of the balls, in scene units. 0: each photon has its own radius, which is
-    /// the distance to its n-th nearest neighbour, where n is `nearest`.
+    /// Radius of the ball over which the flux of a photon is spread, in scene units. If
+    /// this setting is 0, the radius for each photon is the distance to its n-th
+    /// nearest neighbour, where n is `nearest`.
     float radius = 0;
     std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
     Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.

@@ -72,10 +72,10 @@ struct PhotonMapsT {
                             ///< glass.
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
-    PhotonMapT<T> general; ///< Photons L D and L ... D ... D, and shadow photons; empty
-                           ///< unless asked for.
+    PhotonMapT<T> general;  ///< Photons L D, photons whose paths have an earlier D, and
+                            ///< shadow photons; empty unless asked for.
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
-    VolumeMapT<T> fog; ///< Photons L ... D ... D where the last D is fog; empty without
+    VolumeMapT<T> fog; ///< Photons in fog whose paths have an earlier D; empty without
                        ///< fog.
     FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
     FluxAudit general_audit{};  ///< Where the flux of the general pass went.
@@ -94,7 +94,8 @@ concept Included = requires {
     sizeof(X);
 };
 
-/// The state of an ability in precision T.
+/// The state of an optional ability of a photon mapper, such as Gathering, in precision
+/// T.
 template <typename X, std::floating_point T>
 struct StateOf {
     using Type = typename X::template State<T>; ///< The state.

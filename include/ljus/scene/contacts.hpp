@@ -101,7 +101,8 @@ struct TouchingObject {
 struct Contacts {
     detail::GrowingArray<Contact> pairs{};          ///< Each pair of objects once.
     detail::GrowingArray<TouchingObject> objects{}; ///< All objects with contacts.
-    BoxT<double> box{};                             ///< A box around all shared places.
+    /// A box around all places that several objects share.
+    BoxT<double> box{};
     bool complete = true; ///< False if more objects overlap than can be compared.
     /// For each type of shape, the number of objects of the types before it.
     std::vector<std::uint32_t> first{};

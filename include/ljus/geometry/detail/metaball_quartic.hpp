@@ -51,8 +51,9 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// The field of a blob of radius R along a ray: w s^2 where
-/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere.
+/// The field of a blob along a ray. The field is \f$ w s^2 \f$ where
+/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere. The members give w, h,
+/// k and m. R is the radius of the blob.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
@@ -138,8 +139,8 @@ struct MetaballLineT {
         for (const auto& b : strands) sum += std::abs(b.weight);
         return C(8) * std::numeric_limits<C>::epsilon() * sum;
     }
-    /// An interval that contains all values in [from, to]. It is tight for a single
-    /// strand.
+    /// An interval that contains value(t) for all t in [from, to]. It is tight for a
+    /// single strand.
     [[nodiscard]] IntervalT<C> range(C from, C to) const noexcept {
         const C doubt = rounding();
         IntervalT<C> sum{-level - doubt, -level + doubt};
@@ -151,8 +152,8 @@ struct MetaballLineT {
         }
         return sum;
     }
-    /// An interval that contains all slopes df/dt in [from, to]. The slope of a strand
-    /// is -4 w k (t - m) s; see StrandT.
+    /// An interval that contains the slope of the field for all t in [from, to]. The
+    /// slope of a strand is -4 w k (t - m) s, in the symbols of StrandT.
     [[nodiscard]] IntervalT<C> slope(C from, C to) const noexcept {
         IntervalT<C> sum;
         for (const auto& b : strands) {

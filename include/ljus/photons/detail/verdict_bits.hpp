@@ -201,10 +201,12 @@ struct Witness {
     bool shadow = false; ///< True for a shadow photon, false for a direct one.
 };
 
-/// Finds the cells of photons, and inserts their bricks into the table of a grid.
-/// \return For each light a list of direct and shadow photons, and one more list with
-///         the indirect photons. For SkipRule::report the first list has the direct and
-///         shadow photons of all lights.
+/// Finds the cells of photons, and inserts the bricks of these cells into the table of
+/// a grid.
+/// \return For each light a list of its direct and shadow photons, and then one list of
+///         all indirect photons. With SkipRule::report the first list has the direct
+///         and shadow photons of all lights, and the lists of the other lights are
+///         empty.
 template <std::floating_point T>
 [[nodiscard]] std::vector<std::vector<Witness>>
 find_witnesses(const std::vector<PhotonT<T>>& photons, const SkipSettings& skip,
