@@ -84,10 +84,10 @@ template <std::floating_point T>
 /// fitted, in listing 2 of \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
-    T a;            ///< The entry a of M.
-    T b;            ///< The entry b of M.
-    T c;            ///< The entry c of M.
-    T d;            ///< The entry d of M, at most 0.
+    T a;            ///< Row 1, column 1 of the matrix M.
+    T b;            ///< Row 1, column 3 of the matrix M.
+    T c;            ///< Row 2, column 2 of the matrix M.
+    T d;            ///< Row 3, column 1 of the matrix M; at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
     T uniform;      ///< The probability of a uniform direction, not from the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.

@@ -70,10 +70,10 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether a light sends more of caustics.photons if it contributes more flux to
-    /// the caustics map, even with CausticBudget::as_seen. A pilot pass of at most a
-    /// quarter of the photons measures the flux. The setting is ignored without the
-    /// ability Budgeting.
+    /// Whether the lights share caustics.photons in proportion to the flux that each of
+    /// them contributes to the caustics map. A pilot pass of at most a quarter of the
+    /// photons measures this flux. CausticBudget::as_seen has no other pilot pass. The
+    /// setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.

@@ -60,7 +60,7 @@ struct StrandT {
     C leave = C(0);  ///< The t at which s becomes negative again.
     C middle = C(0); ///< m, the t at which the ray is nearest to the centre.
     C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
-    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
+    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D and the radius R.
     C weight = C(1); ///< w, the weight of the blob.
 };
 
