@@ -228,8 +228,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The nearest hit of a ray on an instance. The ray is transformed into the space of the
-/// mesh; t is the same in both spaces.
+/// The nearest hit of a ray on an instance. The ray is transformed into the space of
+/// the mesh; t is the same in both spaces.
 /// \cost That of intersect() for the mesh, and 18 multiplications.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
