@@ -72,8 +72,8 @@ struct PhotonMappingSettings {
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
     /// Whether the lights share caustics.photons in proportion to the flux that each of
     /// them contributes to the caustics map. A pilot pass of at most a quarter of the
-    /// photons measures this flux. Every CausticBudget but as_seen and equal does this in
-    /// any case. The setting is ignored without the ability Budgeting.
+    /// photons measures this flux. Every CausticBudget but as_seen and equal does this
+    /// in any case. The setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
