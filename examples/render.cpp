@@ -182,10 +182,11 @@ RenderedT<T> render_promised(const W& world, const LensCameraT<T>& camera, Reque
               {"bias", kept.forecast().bias}};
     if (!r.quiet) {
         examples::print_cost(kept.rendered.counts, kept.seconds);
-        std::printf("  %-16s %10s  relMSE %s, noise %.3g and bias %s; mean of %lld "
+        std::printf("  %-16s %10s  relMSE %s, noise %s and bias %s; mean of %lld "
                     "pictures\n",
-                    "error", "", stated_text(kept).c_str(), kept.noise,
-                    bias_text(kept.forecast()).c_str(), kept.pictures);
+                    "error", "", stated_text(kept).c_str(),
+                    noise_text(kept.noise).c_str(), bias_text(kept.forecast()).c_str(),
+                    kept.pictures);
     }
     return std::move(kept.rendered);
 }

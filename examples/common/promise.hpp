@@ -166,6 +166,11 @@ struct Choice {
     return text;
 }
 
+/// The noise of a promised picture as text. A single picture does not show its noise.
+[[nodiscard]] inline std::string noise_text(double noise) {
+    return std::isinf(noise) ? "not measured" : two_digits(noise);
+}
+
 /// A squared bias as text, with its standard error if that is not 0.
 [[nodiscard]] inline std::string bias_text(const Forecast& found) {
     const std::string text = two_digits(found.bias);
