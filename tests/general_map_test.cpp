@@ -683,8 +683,6 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.irradiance.shadow_rays == 4); // a gather ray is one of 16
     CHECK(fast.irradiance.shadow_rays == 2);
     CHECK(exact.irradiance.shadow_rays == 4);
-    CHECK(draft.irradiance.every == 6);
-    CHECK(fast.irradiance.every == 8);
     const auto rays = [](Preset preset) {
         const PresetRays found = preset_rays(preset);
         return std::array<double, 3>{double(found.first), double(found.more),
