@@ -184,8 +184,8 @@ RenderedT<T> render_promised(const W& world, const LensCameraT<T>& camera, Reque
         examples::print_cost(kept.rendered.counts, kept.seconds);
         std::printf("  %-16s %10s  relMSE %s, noise %s and bias %s; %lld pictures\n",
                     "error", "", stated_text(kept).c_str(),
-                    noise_text(kept.noise).c_str(), bias_text(kept.forecast()).c_str(),
-                    kept.pictures);
+                    examples::noise_text(kept.noise).c_str(),
+                    bias_text(kept.forecast()).c_str(), kept.pictures);
     }
     return std::move(kept.rendered);
 }
