@@ -146,11 +146,12 @@ std::string told(const ljus_break_it::Told& row, const std::string& brightness,
     std::snprintf(line, sizeof line, "#l%05d", row.line);
     const std::string to = row.to;
     return "<div class=\"ljus-mistake\"><pre class=\"fragment\">ljus/" +
-           escaped(row.header) + "\n<del>- " + escaped(row.from) + "</del>\n<ins>+ " +
-           (to.empty() ? std::string("(nothing)") : escaped(to)) +
+           examples::escaped(row.header) + "\n<del>- " + examples::escaped(row.from) +
+           "</del>\n<ins>+ " +
+           (to.empty() ? std::string("(nothing)") : examples::escaped(to)) +
            "</ins></pre>\n<p>Row <code>" + row.name + "</code>; noticed by <a href=\"" +
            source_page(std::string(row.test) + "_test") + line + "\">" +
-           escaped(row.noticed) + "</a>. Mean brightness " + brightness +
+           examples::escaped(row.noticed) + "</a>. Mean brightness " + brightness +
            " of the right one; largest difference " + largest + ".</p></div>\n";
 }
 
