@@ -18,7 +18,7 @@ class Ref {
 public:
     /// Refers to an object with a name.
     constexpr Ref(const X& object) noexcept : object_(&object) {}
-    Ref(const X&&) = delete; ///< Refuses a temporary: give the object a name.
+    Ref(const X&&) = delete; ///< A temporary ends too early: give the object a name.
 
     /// The object.
     [[nodiscard]] constexpr const X& get() const noexcept { return *object_; }
