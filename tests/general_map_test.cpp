@@ -643,7 +643,7 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.gather.tile == 5);
     const auto fast = preset_settings(Preset::fast, 400, 300);
     CHECK(fast.caustics.photons == 84000); // seven tenths of the pixels
-    CHECK(fast.general.photons == 60400);  // six tenths of these, and 10000
+    CHECK(fast.general.photons == 92000);  // 8000 more
     CHECK(fast.shadow_rays == 4);
     CHECK(fast.direct == DirectLight::analytic);
     CHECK(fast.indirect == IndirectLight::cache);
@@ -668,8 +668,8 @@ TEST_CASE("general map: what the presets ask for") {
     };
     CHECK(general(Preset::draft, 10) == 10000);
     CHECK(general(Preset::draft, 20000) == 1000000);
-    CHECK(general(Preset::fast, 10) == 16000);
-    CHECK(general(Preset::fast, 20000) == 610000);
+    CHECK(general(Preset::fast, 10) == 18000);
+    CHECK(general(Preset::fast, 20000) == 1008000);
     // Beyond 2^31 pixels, too; seven tenths of them lie
     // between the limits at 300 x 300.
     CHECK(preset_settings(Preset::fast, 50000, 50000).caustics.photons == 1000000);

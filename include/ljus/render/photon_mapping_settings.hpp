@@ -185,7 +185,7 @@ enum class Preset : std::uint8_t {
         std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
     // Small pictures need more photons per pixel, or blotches cover much of the
     // picture.
-    settings.general.photons = draft ? photons : photons * 6 / 10 + 10000;
+    settings.general.photons = photons + (draft ? 0 : 8000);
     settings.caustics.photons = photons / (draft ? 2 : 1);
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
