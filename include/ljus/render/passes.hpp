@@ -48,19 +48,19 @@ template <AnyWorld W>
     return found;
 }
 
-/// Which passes run: the decisions of a Plan, without their reasons. Members without a
-/// comment are explained in Plan.
+/// Which passes run: the decisions of a Plan, without their reasons. The members have
+/// the same names as those of Plan.
 struct Passes {
-    bool shadow_rays = false;
-    bool indirect_rays = false;
-    bool caustics_map = false;
-    bool general_map = false;
-    bool volume_map = false;
-    bool shadow_photons = false;
-    bool skipped_rays = false;
-    bool skipped_bounces = false;
-    bool irradiance = false;
-    bool cache = false;
+    bool shadow_rays = false;      ///< As Plan::shadow_rays.
+    bool indirect_rays = false;    ///< As Plan::indirect_rays.
+    bool caustics_map = false;     ///< As Plan::caustics_map.
+    bool general_map = false;      ///< As Plan::general_map.
+    bool volume_map = false;       ///< As Plan::volume_map.
+    bool shadow_photons = false;   ///< As Plan::shadow_photons.
+    bool skipped_rays = false;     ///< As Plan::skipped_rays.
+    bool skipped_bounces = false;  ///< As Plan::skipped_bounces.
+    bool irradiance = false;       ///< As Plan::irradiance.
+    bool cache = false;            ///< As Plan::cache.
     bool gloss_as_mirrors = false; ///< Value of PhotonPassSettings::gloss_as_mirrors.
     bool caustics_on_gloss = true; ///< Whether the caustics map may have photons where
                                    ///< there is no diffuse lobe.
