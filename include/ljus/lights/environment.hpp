@@ -46,8 +46,7 @@ struct EnvironmentLightT {
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
     T strength = T(1); ///< Factor of all radiance, above 0.
     /// Rotation of the sky about the y axis, in degrees. A positive angle rotates the
-    /// sky counter-clockwise, as
-    /// seen from above.
+    /// sky counter-clockwise, as seen from above.
     T rotation_degrees = T(0);
 };
 using EnvironmentLight = EnvironmentLightT<float>; ///< EnvironmentLightT in float.
