@@ -110,6 +110,9 @@ TEST_CASE("estimate: how often noise alone is this far from the truth") {
               doctest::Approx(std::erfc(errors / std::sqrt(2.0))).epsilon(0.01));
     }
     CHECK(ljus::chance_beyond(0, 5) == 1);
+    for (const double errors : {1e6, std::numeric_limits<double>::infinity()})
+        for (const double count : {3.0, 16.0, 1e6})
+            CHECK(std::abs(ljus::chance_beyond(errors, count)) < 1e-6);
 }
 
 TEST_CASE("estimate: a sample that is no number shows") {

@@ -101,7 +101,7 @@ void draw_sealed(const std::string& folder) {
                   {low, {high.x, low.y}, high, {low.x, high.y}, low, {high.x, low.y}},
                   {.width = 2});
     };
-    // To the walls of a box, in even angles.
+    // The photons fly to the walls of a box, at even angles.
     const auto photons = [&](const Point& lamp, const Point& low, const Point& high,
                              const char* color) {
         constexpr int count = 8;

@@ -12,8 +12,8 @@ ljus_break_it(NAME monte_carlo-standard-error HEADER inspect/estimate.hpp TEST e
 
 # The tails of a normal distribution, for a standard error from few samples.
 ljus_break_it(NAME monte_carlo-student HEADER inspect/estimate.hpp TEST estimate
-    FROM "std::pow(1 + t * t / freedom, -count / 2)"
-    TO   "std::exp(-t * t / 2)"
+    FROM "std::pow(std::cos((i + 0.5) * end / steps), n - 1)"
+    TO   "std::exp(-n * std::pow((i + 0.5) * end / steps, 2) / 2)"
     CASES "estimate: how often*")
 
 # Both distances from the old mean.

@@ -148,8 +148,8 @@ struct CheckerT {
     int rows = 2;         ///< The number of squares from v = 0 to 1; even.
 };
 using Checker = CheckerT<float>; ///< A checker on a plane, in float.
-using GlobeChecker =
-    CheckerT<float, GlobeMapT<float>>; ///< A checker on a globe, in float.
+/// A checker on a globe, in float.
+using GlobeChecker = CheckerT<float, GlobeMapT<float>>;
 
 /// The colour of a checker at a point.
 template <std::floating_point T, typename Map>

@@ -45,8 +45,8 @@ void require_no_film_in_fog([[maybe_unused]] const W& world) {
         if (world.has_fog() && detail::has_thin_surfaces(world))
             throw std::invalid_argument(
                 "the scene has both fog and thin surfaces, but paths in fog cannot "
-                "pass "
-                "thin surfaces; remove the fog, or all soap films and thin glass.");
+                "pass thin surfaces; remove the fog, or all soap films and thin "
+                "glass.");
 }
 
 /// How to choose the points of a segment from which shadow rays find the light that fog

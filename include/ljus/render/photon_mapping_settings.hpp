@@ -85,8 +85,8 @@ struct PhotonMappingSettings {
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
     DensityEstimateSettings general_estimate{.radius = 0.3f};
-    BeamEstimateSettings
-        fog_estimate{}; ///< How radiance is estimated from photons in fog.
+    /// How radiance is estimated from photons in fog.
+    BeamEstimateSettings fog_estimate{};
     IrradiancePointSettings irradiance{}; ///< How the points that gather rays look up
                                           ///< are made.
     GatherSettings gather{};              ///< How the irradiance cache is made.
