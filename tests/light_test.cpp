@@ -392,7 +392,7 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
             Vec3 way{0}, unit{0};
             way[axis] = length;
             unit[axis] = length > 0 ? 1.0f : -1.0f;
-            CHECK(detail::unit_along("way", way) == unit);
+            CHECK(detail::unit_along(way) == unit);
             CHECK_NOTHROW(check(SpotLight{.direction = way, .intensity = Rgb{1}}));
         }
 }

@@ -54,12 +54,10 @@ struct BoxRayT {
 /// the shape's test and of the box's test are proportional to the distance of the boxes
 /// from the ray's origin. Each box is therefore enlarged by this distance times 16
 /// units of roundoff. The test of a box alone needs 3 units \cite ize2013.
-/// \param ray  The ray. Its direction may have any length except zero. Its range is
-///             ignored.
+/// \param ray  The ray, whose range is ignored.
 /// \param all  A box around all boxes to be tested.
-/// \return The prepared ray. Nothing if the square of the direction's length or of the
-///         distance to `all` is outside the range of T; the shapes must then be tested
-///         without boxes.
+/// \return Nothing if the square of the direction's length or of the distance to `all`
+///         is outside the range of T; the shapes must then be tested without boxes.
 // [box_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,
@@ -87,10 +85,6 @@ template <std::floating_point T>
 ///
 /// If the ray lies in the plane of a side, the plane's distance is
 /// \f$ 0 \cdot \infty \f$, which is NaN. The comparisons ignore a NaN.
-/// \param ray    The ray, from box_ray().
-/// \param box    A box within the `all` of box_ray().
-/// \param t_min  First t of the ray, in units of the direction's length.
-/// \param t_max  Last t of the ray.
 /// \return The first t of [t_min, t_max] inside the box; nothing for a miss, or if the
 ///         range is NaN.
 // [slabs]

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/cylinder.hpp
-/// \brief The cylinder: an open tube. To close it, add a disc at each end.
+/// \brief The cylinder: an open tube.
 
 #include <array>
 #include <cmath>
@@ -20,13 +20,11 @@
 namespace ljus {
 
 /// \defgroup cylinder Cylinders
-/// \brief A cylinder is an open tube around a line segment.
-///
-/// A closed cylinder of glass consists of a Cylinder and the two discs of ends_of().
+/// \brief An open tube around a line segment; the two discs of ends_of() close it.
 /// \{
 
-/// The points at the distance R from an axis, between the two ends of the axis. The
-/// outside faces away from the axis.
+/// The points at the distance R from an axis, between the ends of the axis. The normal
+/// points away from the axis.
 template <std::floating_point T>
 struct CylinderT {
     Vec3T<T> base{T(0)};             ///< One end of the axis, in scene units.
@@ -45,14 +43,11 @@ template <std::floating_point T>
 ///
 /// Projected along the axis, the ray is a line and the cylinder is a circle. The
 /// intersection is computed as in chord(), without cancellation.
-/// \tparam Compute  The precision of the arithmetic; by default double.
-/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
-///                  [t_min, t_max].
-/// \param cylinder  The cylinder. In float arithmetic its lengths must be between 1e-15
-///                  and 1e15.
+/// \tparam Compute  The precision of the arithmetic; by default double. In float,
+///                  lengths must be between 1e-15 and 1e15.
 /// \return The distance t, and the coordinate v along the axis, in [0, 1]. Nothing for
 ///         a miss, or for a ray along the axis.
-/// \cost Two square roots and three divisions.
+/// \cost Two square roots and six divisions.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const CylinderT<T>& cylinder) noexcept {
@@ -106,9 +101,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The point of a cylinder that a ray hit: the point O + tD of the ray, projected onto
-/// the cylinder. If the cylinder is so thin and distant that rounding leaves nothing of
-/// the normal, the normal faces the ray.
+/// The point of a cylinder that a ray O + tD hit, projected onto the cylinder. If
+/// rounding leaves nothing of the normal of a thin, distant cylinder, the normal faces
+/// the ray.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const CylinderT<T>& cylinder,
                                              const RayT<T>& ray,
@@ -125,11 +120,8 @@ template <std::floating_point T>
     return detail::point_of(cylinder, hit.v, Vec3T<T>(glm::normalize(way)));
 }
 
-/// Samples a point of a cylinder uniformly. The density is 1 / area per squared scene
-/// unit.
-/// \param cylinder  The cylinder.
-/// \param u         Point of the unit square. u.x gives the angle around the axis, and
-///                  u.y the position along the axis.
+/// Samples a point of a cylinder uniformly, with the density 1 / area per squared scene
+/// unit. u.x gives the angle around the axis, and u.y the position along it.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const CylinderT<T>& cylinder,
                                            const Vec2T<T>& u) noexcept {
@@ -140,9 +132,9 @@ template <std::floating_point T>
     return detail::point_of(cylinder, u.y, glm::normalize(out));
 }
 
-/// The texture coordinates (u, v) of a hit, in [0, 1]. u goes once around the axis. It
-/// starts at the tangent of frame_around(axis_of(cylinder)) and turns towards the
-/// bitangent. v goes along the axis.
+/// The texture coordinates (u, v) of a hit, in [0, 1]. u goes once around the axis,
+/// from the tangent of frame_around(axis_of(cylinder)) towards the bitangent. v goes
+/// along the axis.
 /// \cost An arc tangent.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const CylinderT<T>& cylinder,
@@ -153,8 +145,8 @@ template <std::floating_point T>
     return {u < T(0) ? u + T(1) : u, hit.v};
 }
 
-/// The two discs that close a cylinder: one at its base, and one at the other end. Both
-/// face away from the cylinder.
+/// The two discs that close a cylinder, the one at the base first. Both face away from
+/// the cylinder.
 template <std::floating_point T>
 [[nodiscard]] std::array<DiscT<T>, 2> ends_of(const CylinderT<T>& cylinder) noexcept {
     return {DiscT<T>{cylinder.base, -cylinder.axis, cylinder.radius},
@@ -169,8 +161,8 @@ template <std::floating_point T>
             .radius = std::hypot(glm::length(half), cylinder.radius)};
 }
 
-/// A box that contains a cylinder despite rounding. It is the box around the discs at
-/// the two ends, a few units in the last place too large.
+/// A box that contains a cylinder despite rounding: the box around the two ends, a few
+/// units in the last place too large.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const CylinderT<T>& cylinder) noexcept {
     const auto ends = ends_of(cylinder);

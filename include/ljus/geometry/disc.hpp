@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/disc.hpp
-/// \brief The disc: a round lamp, a table top, the end of a cylinder.
+/// \brief The disc.
 
 #include <cmath>
 #include <limits>
@@ -41,15 +41,12 @@ template <std::floating_point T>
 /// Intersects a ray O + tD with a disc of centre C, normal N and radius R. The ray
 /// meets the plane of the disc at \f$ t = N \cdot (C - O) / N \cdot D \f$. It hits the
 /// disc if the point O + tD lies within R of C.
-/// \tparam Compute  The precision of the arithmetic; by default double.
-/// \param ray   The ray. Its direction may have any length except zero. Hits lie in
-///              [t_min, t_max].
-/// \param disc  The disc. In float arithmetic its lengths must be between 1e-18 and
-///              1e18.
+/// \tparam Compute  The precision of the arithmetic; by default double. In float,
+///                  lengths must be between 1e-18 and 1e18.
 /// \return The distance t, and the coordinates u and v of the point in [-1, 1]. These
 ///         are relative to the centre, in units of the radius, along the tangent and
 ///         the bitangent of frame_around(normal(disc)). Nothing for a miss.
-/// \cost One division, and a square root for a hit.
+/// \cost One division; a square root and four more divisions for a hit.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
                                                     const DiscT<T>& disc) noexcept {
@@ -96,7 +93,7 @@ template <std::floating_point T>
     return point;
 }
 
-/// The point of a disc at a hit, from the hit's coordinates u and v.
+/// The point of a disc at the u and v of a hit.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const DiscT<T>& disc,
                                              const RayT<T>& /*ray*/,
@@ -104,10 +101,8 @@ template <std::floating_point T>
     return point_at(disc, hit.u, hit.v, normal(disc));
 }
 
-/// Samples a point of a disc uniformly. The density is 1 / area per squared scene unit.
-/// \param disc    The disc.
-/// \param u       Point of the unit square.
-/// \param normal  The result of normal(disc).
+/// Samples a point of a disc uniformly, with the density 1 / area per squared scene
+/// unit. `normal` must be the result of normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const DiscT<T>& disc, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {

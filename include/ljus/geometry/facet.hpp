@@ -18,8 +18,7 @@ namespace ljus {
 /// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
 /// for each pair of patches". Chapter: \ref ch_radiosity.
 ///
-/// All computations are in double, because a form factor can be a small difference of
-/// larger numbers.
+/// Everything is in double: a form factor can be a small difference of larger numbers.
 /// \{
 
 /// A convex polygon. Its corners turn counter-clockwise as seen from its front.
@@ -30,7 +29,7 @@ struct Facet {
 
 namespace detail {
 
-/// The given facet with its front and its back exchanged.
+/// A facet with its front and its back exchanged.
 [[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
     Facet other{.count = facet.count};
     for (int i = 0; i < facet.count; ++i)
@@ -50,13 +49,9 @@ namespace detail {
     return 0.5 * sum;
 }
 
-/// Clips a facet by a plane.
-/// \param facet   The facet.
-/// \param point   A point of the plane.
-/// \param normal  Unit normal of the plane, towards the side that is kept.
-/// \param width   Corners within this distance of the plane count as on the plane.
-/// \return The part of the facet in front of the plane, which has at most one corner
-///         more than the facet. No corners if nothing is left.
+/// Clips a facet by the plane through `point`. The unit normal of the plane points to
+/// the side that is kept. Corners within `width` of the plane count as on the plane.
+/// \return At most one corner more than the facet. No corners if nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
@@ -82,17 +77,14 @@ namespace detail {
 
 } // namespace detail
 
-/// The form factor from a point of a surface to a facet: the fraction of the point's
-/// diffuse emission that arrives at the facet.
-///
-/// Lambert's formula gives the form factor F. v_k is the unit vector from the point to
-/// corner k, theta_k is the angle between v_k and v_{k+1}, and n is the normal at the
-/// point.
+/// The form factor F from a point of a surface to a facet: the fraction of the point's
+/// diffuse emission that arrives at the facet. By Lambert's formula
 /// \f[ F = \frac1{2\pi} \sum_k \theta_k\,
-///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|} \f]
-/// \param point   Any point not on the facet's border.
-/// \param normal  Unit normal at the point.
-/// \param facet   The facet. The part below the point's horizon does not count.
+///     n \cdot \frac{v_{k+1} \times v_k}{|v_{k+1} \times v_k|} , \f]
+/// where v_k is the unit vector from the point to corner k, theta_k is the angle
+/// between v_k and v_{k+1}, and n is the unit normal at the point. The point must not
+/// lie on the facet's border. The part of the facet below the point's horizon does not
+/// count.
 /// \return F in [0, 1]; 0 if the facet faces away.
 /// \report{Section 2.2}
 /// \cite baum1989
@@ -117,9 +109,9 @@ namespace detail {
 
 namespace detail {
 
-/// The first 16 coefficients of theta / sin(theta) as a series in x = sin^2(theta / 2).
-/// The series is the hypergeometric function 2F1(1, 1; 3/2; x). For x up to 1/4 its
-/// first 16 terms are exact to 1e-10.
+/// The first 16 coefficients of theta / sin(theta) as a series in x = sin^2(theta / 2),
+/// the hypergeometric function 2F1(1, 1; 3/2; x). For x up to 1/4 they are exact to
+/// 1e-10.
 inline constexpr auto angle_over_sine_series = [] {
     std::array<double, 16> terms{1};
     for (std::size_t n = 0; n + 1 < terms.size(); ++n)
@@ -132,8 +124,7 @@ inline constexpr auto angle_over_sine_series = [] {
 [[nodiscard]] constexpr double angle_over_sine(double cosine) noexcept {
     const auto& a = angle_over_sine_series;
     const double x = 0.5 - 0.5 * cosine, x2 = x * x;
-    // Two independent sums are faster, because each step of a sum waits for the one
-    // before.
+    // Two independent sums, because each step of a sum waits for the one before.
     double even = a[14], odd = a[15];
     for (std::size_t n = 14; n > 0; n -= 2) {
         even = even * x2 + a[n - 2];

@@ -20,8 +20,8 @@ namespace ljus {
 /// \addtogroup isosurface
 /// \{
 
-/// A field with its value and its gradient at a point, and with a bound on the length
-/// of the gradient, `lipschitz()`.
+/// A field with its value and its gradient at a point. `lipschitz()` is a bound on the
+/// length of the gradient.
 template <typename F>
 concept LipschitzField = requires(const F& field, Vec3T<double> x) {
     { field.value(x) } -> std::same_as<double>;
@@ -63,8 +63,7 @@ struct LipschitzLine {
 
 } // namespace detail
 
-/// The distance at which a ray first hits an isosurface, within the ray's [t_min,
-/// t_max].
+/// The distance at which a ray first hits an isosurface.
 /// \tparam Solver  SphereTracing or Bisection.
 /// \return The distance in units of the direction's length, computed in double; nothing
 ///         for a miss, or if the solver gives up.
@@ -85,15 +84,10 @@ template <typename Solver = SphereTracing, std::floating_point T, LipschitzField
 
 namespace detail {
 
-/// Projects a hit onto the surface of a field f by one Newton step along the gradient.
-/// The step is taken only if it is no longer than the error of t, which stems from
-/// rounding and from the solver's tolerance. If the gradient is 0, the normal faces the
-/// ray.
-/// \param value     Called as value(x): the field f.
-/// \param gradient  Called as gradient(x): the gradient of f.
-/// \param ray       The ray.
-/// \param t         Distance of the hit, in units of the direction's length.
-/// \param rounding  A bound on the error of f, including the solver's tolerance.
+/// Projects the hit of a ray at t onto the surface of a field f, by one Newton step
+/// along the gradient. The step is taken only if it is no longer than the error of t.
+/// If the gradient is 0, the normal faces the ray. `value(x)` is f, and `rounding` is a
+/// bound on the error of f, including the solver's tolerance.
 template <std::floating_point T, typename Value, typename Gradient>
 [[nodiscard]] SurfacePointT<T> refined(const Value& value, const Gradient& gradient,
                                        const RayT<T>& ray, T t, double rounding) {
@@ -125,7 +119,7 @@ template <std::floating_point T, typename Value, typename Gradient>
 
 } // namespace detail
 
-/// The point of an isosurface that a ray hit: position, error bound, outward normal.
+/// The point of an isosurface that a ray hit, projected onto the surface.
 template <std::floating_point T, LipschitzField Field>
 [[nodiscard]] SurfacePointT<T> surface_point(const IsosurfaceT<T, Field>& surface,
                                              const RayT<T>& ray,

@@ -20,9 +20,8 @@ namespace ljus {
 
 /// Metaballs: the surface where the summed fields of some blobs are equal to a level L:
 /// \f[ f(X) = \sum_i w_i \left(1 - \frac{|X - C_i|^2}{R_i^2}\right)_+^2 - L = 0. \f]
-/// The index + means that a negative number counts as 0. f is positive inside and
-/// negative outside. A blob of negative weight removes volume. One blob of weight 1 and
-/// level 1/4 gives a sphere of radius 0.707 R.
+/// The index + means that a negative number counts as 0. A blob of negative weight
+/// removes volume. One blob of weight 1 and level 1/4 gives a sphere of radius 0.707 R.
 /// \report{Section 2.1, footnote 2} \cite blinn1982 \cite wyvill1986
 // [metaballs]
 template <std::floating_point T>
@@ -49,8 +48,7 @@ template <std::floating_point T>
 
 /// The gradient of the field in double,
 /// \f$ \nabla f = -4 \sum_i w_i s_i (X - C_i)/R_i^2 \f$. The sum is over the blobs for
-/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive; see MetaballsT for the
-/// symbols. The gradient points inwards.
+/// which \f$ s_i = 1 - |X - C_i|^2/R_i^2 \f$ is positive; see MetaballsT.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> gradient(const MetaballsT<T>& balls,
                                        const Vec3T<WideT<T>>& x) {
@@ -76,17 +74,16 @@ template <std::floating_point T>
     return sum * detail::steepest_blob<WideT<T>>;
 }
 
-/// The distance at which a ray first hits metaballs, from outside or inside, within the
-/// ray's [t_min, t_max].
+/// The distance at which a ray first hits metaballs, from outside or inside.
 /// \tparam Solver  QuarticPieces, Bisection, SphereTracing or Radicals. The default,
 ///                 QuarticPieces, is the fastest and the most accurate.
 /// \return The smallest t at which f crosses 0, in units of the direction's length. It
-///         is computed in double and rounded to T once. Nothing for a miss, a NaN, an
-///         infinity, or a zero direction. A point with f >= 0 is inside.
-/// \cost A square root and a division per blob. A ray that meets n blobs has at most 3
-///       n - 1 spans, which end where the ray enters, leaves or is nearest to a blob. A
-///       span costs n additions, and mostly no root or one. At worst it costs 10 roots
-///       of 106 steps each.
+///         is computed in double and rounded to T once. Nothing for a miss. A point
+///         with f >= 0 is inside.
+/// \cost A square root and a division per blob. A ray that meets n blobs has at most
+///       3n - 1 spans, which end where the ray enters, leaves or is nearest to a blob.
+///       A span costs n additions and mostly at most one root; at worst 10 roots of 106
+///       steps each.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
@@ -115,22 +112,8 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>
                            hit.t, 64 * std::numeric_limits<WideT<T>>::epsilon() * size);
 }
 
-namespace detail {
-
-/// The radius within which the field of a blob is at least `share`.
-/// \return R sqrt(1 - sqrt(share / w)) for the blob's radius R and its weight w > 0. A
-///         negative number if the field is below `share` everywhere.
-template <std::floating_point T>
-[[nodiscard]] WideT<T> reach_of(const BlobT<T>& blob, WideT<T> share) {
-    const WideT<T> s = std::sqrt(share / WideT<T>(blob.weight));
-    return s < 1 ? WideT<T>(blob.radius) * std::sqrt(1 - s) : WideT<T>(-1);
-}
-
-} // namespace detail
-
 /// A sphere around metaballs. Where the fields of n blobs of positive weight add up to
 /// the level L, at least one field is L/n or more. The sphere contains all such points.
-/// For a single blob the sphere is the surface itself.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;
@@ -141,8 +124,9 @@ template <std::floating_point T>
     const auto each = [&](const auto& visit) {
         for (const BlobT<T>& blob : balls.blobs) {
             if (!(blob.weight > T(0))) continue;
-            const C reach = detail::reach_of(blob, C(balls.level) / positive);
-            if (reach >= C(0)) visit(Vec3T<C>(blob.center), reach);
+            // The blob's field is L/n where 1 - (distance / R)^2 is s.
+            const C s = std::sqrt(C(balls.level) / positive / C(blob.weight));
+            if (s < 1) visit(Vec3T<C>(blob.center), C(blob.radius) * std::sqrt(1 - s));
         }
     };
     each([&](const Vec3T<C>& center, C reach) {

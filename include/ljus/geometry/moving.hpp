@@ -13,15 +13,13 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// A shape with the function `translated(shape, by)`. For each ray this function moves
-/// the shape to the ray's time, so it should be cheap.
+/// A shape with the function `translated(shape, by)`, which is called for each ray.
 template <typename S>
 concept Movable = Shape<S> && requires(const S& shape, const Vec3T<ScalarOf<S>>& by) {
     { translated(shape, by) } -> std::same_as<S>;
 };
 
-/// A shape in linear motion. The shutter opens at time 0 and closes at time 1. A ray
-/// sees the shape at the ray's time.
+/// A shape in linear motion. A ray sees the shape at the ray's time.
 /// \tparam S  A sphere, a triangle, a quad, a disc, a cylinder or an instance of a
 ///            mesh.
 // [moving]
@@ -51,7 +49,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// A shape that does not move is the same at every time: returns the shape itself.
+/// A shape that does not move.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {
@@ -59,7 +57,6 @@ requires(!detail::is_moving<S>)
 }
 
 /// \name As a shape
-/// The bounds of a moving shape contain the shape at all times.
 /// \{
 
 /// Intersects a ray with the shape at the ray's time.
@@ -123,7 +120,7 @@ template <typename S>
     return BoxT<T>{both.low - rounding, both.high + rounding};
 }
 
-/// The texture coordinates of the shape, which move with the shape.
+/// The texture coordinates of the shape.
 template <typename S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const Moving<S>& moving,
                                            const ShapeHitT<T>& hit,
@@ -131,14 +128,14 @@ template <typename S, std::floating_point T>
     return texture_coordinates(moving.shape, hit, point);
 }
 
-/// The texture tangents of the shape, which a displacement does not change.
+/// The texture tangents of the shape.
 template <HasTangents S, std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const Moving<S>& moving, const ShapeHitT<T>& hit) noexcept {
     return texture_tangents(moving.shape, hit);
 }
 
-/// The shading normal of the shape, which a displacement does not change.
+/// The shading normal of the shape.
 template <typename S, std::floating_point T>
 requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& normal) {
     shading_normal(shape, hit, normal);
@@ -148,7 +145,7 @@ requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& norma
     return shading_normal(moving.shape, hit, geometric);
 }
 
-/// The result of area_sums() for the shape, which a displacement does not change.
+/// The area_sums() of the shape.
 template <typename S>
 requires requires(const S& shape) {
     area_sums(shape);

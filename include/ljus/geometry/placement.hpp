@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include <glm/mat3x3.hpp>
 
@@ -43,8 +42,7 @@ struct PlacementT {
 using Placement = PlacementT<float>; ///< PlacementT in float.
 
 /// Refuses a placement if a factor of its scale is not above 0, if a member is not
-/// finite, or if the axis of its rotation is 0. A negative factor would turn shapes
-/// inside out.
+/// finite, or if the axis of its rotation is 0.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const PlacementT<T>& placement) {
@@ -93,10 +91,8 @@ template <std::floating_point T>
                     glm::dvec3(placement.translate));
 }
 
-/// The unit normal of a surface after scaling and rotation. Before the rotation, each
-/// component is divided by the scaling factor of its axis.
-/// \param normal     The normal before scaling and rotation, of any length except 0.
-/// \param placement  The placement of the surface.
+/// The unit normal of a surface after scaling and rotation. `normal` may have any
+/// length except 0. Its components are divided by the factors of the scale.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> placed_normal(const Vec3T<T>& normal,
                                      const PlacementT<T>& placement) noexcept {
@@ -106,7 +102,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The scale of a round shape, which must be the same along all axes.
+/// Requires a scale that is the same along all axes, for a round shape.
 template <std::floating_point T>
 [[nodiscard]] T one_scale(const PlacementT<T>& placement, const char* shape) {
     const Vec3T<T>& s = placement.scale;

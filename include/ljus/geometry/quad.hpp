@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/quad.hpp
-/// \brief The parallelogram, which the report uses for lamps and walls.
+/// \brief The parallelogram, for lamps and walls.
 
 #include <array>
 #include <limits>
@@ -18,8 +18,7 @@ namespace ljus {
 
 /// \defgroup quad Quads
 /// \brief Section 3.1.5: the intersection test of triangles, with other bounds for u
-/// and v. One test replaces the tests of two triangles, and there is no diagonal
-/// between them through which a ray could pass.
+/// and v. One test replaces those of two triangles, with no gap along a diagonal.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].
@@ -33,8 +32,7 @@ using Quad = QuadT<float>; ///< QuadT in float.
 
 namespace detail {
 
-/// The cross product of a quad's edges, in double. Its direction is the normal, and its
-/// length is the area.
+/// The normal of a quad times its area, in double.
 template <std::floating_point T>
 [[nodiscard]] inline Vec3T<WideT<T>> cross_of_edges(const QuadT<T>& quad) noexcept {
     return glm::cross(Vec3T<WideT<T>>{quad.edge_u}, Vec3T<WideT<T>>{quad.edge_v});
@@ -52,11 +50,8 @@ template <std::floating_point T>
 
 /// Intersects a ray with a quad.
 /// \tparam Compute  The precision of the arithmetic; by default double.
-/// \param ray   The ray. Its direction may have any length except zero. Hits lie in
-///              [t_min, t_max].
-/// \param quad  The quad. A quad with parallel edges is never hit.
 /// \return The distance t, and the coordinates u and v along the edges, in [0, 1].
-///         Nothing for a miss.
+///         Nothing for a miss, or for a quad without an area.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -104,11 +99,8 @@ template <std::floating_point T>
     return point_at(quad, u, v, normal(quad));
 }
 
-/// Samples a point of a quad uniformly. The area must not be 0. The density is
-/// 1 / area per squared scene unit.
-/// \param quad    The quad.
-/// \param u       Point of the unit square.
-/// \param normal  The result of normal(quad).
+/// Samples a point of a quad uniformly, with the density 1 / area per squared scene
+/// unit. `normal` must be the result of normal(quad).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad, const Vec2T<T>& u,
                                            const Vec3T<T>& normal) noexcept {
@@ -122,7 +114,7 @@ template <std::floating_point T>
     return sample_area(quad, u, normal(quad));
 }
 
-/// The point of a quad at a hit, from the hit's coordinates u and v.
+/// The point of a quad at the u and v of a hit.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const QuadT<T>& quad,
                                              const RayT<T>& /*ray*/,
@@ -167,8 +159,8 @@ template <std::floating_point T>
     return {box.low - size, box.high + size};
 }
 
-/// The six sides of an axis-aligned box, as quads that face outwards.
-/// \param box  The box. Its low corner must be below its high corner along each axis.
+/// The six sides of an axis-aligned box, as quads that face outwards. The box must have
+/// a volume.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<QuadT<T>, 6> sides_of(const BoxT<T>& box) noexcept {
     const Vec3T<T> size = box.high - box.low;
@@ -177,7 +169,7 @@ template <std::floating_point T>
             {box.high, -z, -x},      {box.low, y, x},    {box.high, -x, -y}};
 }
 
-/// The edges of a quad, along which its texture coordinates u and v grow.
+/// The edges of a quad.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const QuadT<T>& quad, const ShapeHitT<T>& /*hit*/) noexcept {

@@ -18,9 +18,9 @@ namespace ljus {
 /// The points O + tD of a line with t from `t_min` to `t_max`.
 ///
 /// The report allows every t >= 0. A ray that leaves a surface may then hit the same
-/// surface again at t = 0. spawn_ray() avoids this. A ray hits nothing if its direction
-/// is zero, if t_min exceeds t_max, or if a member is NaN or infinite. Only t_max may
-/// be infinite.
+/// surface again at t = 0; spawn_ray() avoids this. A ray hits nothing if its direction
+/// is zero, if its range is empty, or if its origin, direction or range is not finite.
+/// Only t_max may be infinite.
 /// \report{Definition 3.1}
 // [ray]
 template <std::floating_point T>
@@ -43,8 +43,7 @@ template <std::floating_point T>
 }
 // [at]
 
-/// The hit of a ray on a shape. On a flat shape, u and v are coordinates along the
-/// edges. Other shapes may leave u and v at 0.
+/// The hit of a ray on a shape. Some shapes leave u and v at 0.
 template <std::floating_point T>
 struct ShapeHitT {
     T t = T(0);             ///< Distance, in units of the direction's length.
@@ -77,8 +76,7 @@ requires(!std::same_as<T, Other>) std::optional<T> intersect(const RayT<T>&,
 /// \}
 
 /// \name Preparation for many shapes
-/// A template argument selects the intersection test for all shapes of a loop. The
-/// argument is a precision or the name of a test.
+/// `Test` is the precision or the name of an intersection test.
 ///
 ///     const auto prepared = prepare<Test>(ray);
 ///     for (const Triangle& triangle : mesh) intersect<Test>(ray, triangle, prepared);
@@ -90,8 +88,8 @@ struct Unprepared {};
 
 } // namespace detail
 
-/// Computes, once per ray, the data that an intersection test uses for every shape.
-/// Most tests need no such data and get an empty struct; see prepare<Watertight>().
+/// Computes, once per ray, the data that an intersection test uses for every shape. All
+/// tests but Watertight need no such data.
 template <typename Test = void, std::floating_point T>
 [[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};

@@ -30,13 +30,13 @@ namespace ljus {
 /// belong in the shape's own namespace, where argument-dependent lookup finds them.
 /// \{
 
-/// Makes a hit of the distance t that a shape's intersect() returned. u and v are 0.
+/// The hit for a shape whose intersect() returns a distance.
 template <std::floating_point T>
 [[nodiscard]] constexpr ShapeHitT<T> as_hit(T t) noexcept {
     return {.t = t};
 }
 
-/// Returns its argument, for a shape whose intersect() already returns a hit.
+/// The hit for a shape whose intersect() returns a hit.
 template <std::floating_point T>
 [[nodiscard]] constexpr ShapeHitT<T> as_hit(const ShapeHitT<T>& hit) noexcept {
     return hit;
@@ -46,8 +46,8 @@ template <std::floating_point T>
 template <typename S>
 using ScalarOf = decltype(bounding_sphere(std::declval<const S&>()).radius);
 
-/// Whether a type has a bounding sphere. The concept Shape tests this first. The
-/// compiler's message for a type that is not a shape is therefore short.
+/// Whether a type has a bounding sphere. The concept Shape tests this first, for a
+/// short message about a type that is not a shape.
 template <typename S>
 concept HasBoundingSphere = !detail::is_stand_in<S> && requires(const S& shape) {
     bounding_sphere(shape);
@@ -78,9 +78,8 @@ concept Samplable = Shape<S> && HasArea<S> &&
 };
 
 /// A shape that can have a normal map. `texture_tangents(shape, hit)` returns two
-/// vectors along which the texture coordinates u and v grow. They point along the
-/// derivatives of the point by u and by v, and may have any length. A vector is 0 where
-/// there is no derivative.
+/// vectors of any length, along the derivatives of the point by the texture coordinates
+/// u and v. A vector is 0 where there is no derivative.
 template <typename S>
 concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;
@@ -95,8 +94,8 @@ concept FlatShape = Samplable<S> && requires(const S& shape) {
 
 namespace detail {
 
-/// Whether point_at() and sample_area() of a flat shape accept the result of normal()
-/// as an argument. If so, normal() is called only once, when the scene is closed.
+/// Whether point_at() and sample_area() of a flat shape accept the result of normal().
+/// If so, normal() is called only once, when the scene is closed.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     requires FlatShape<S>;
@@ -110,8 +109,8 @@ inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) 
 /// A shape's own function of the same name takes precedence.
 /// \{
 
-/// Lets the code for lights compile for a shape without area(). A scene refuses such a
-/// light, so that this function is never called.
+/// Lets the code for lights compile for a shape without area(), which a scene refuses
+/// as a light.
 template <Shape S>
 requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
     const S&, const Vec2T<ScalarOf<S>>&) noexcept {
@@ -119,8 +118,8 @@ requires(!HasArea<S>) [[nodiscard]] SurfacePointT<ScalarOf<S>> sample_area(
 }
 
 /// Samples a point of any shape, uniformly over its area.
-/// \return The point and its density per steradian at the observer `from`. The density
-///         is 0 for a shape without area(), and if the observer is at the point.
+/// \return The point and its density per steradian at the observer `from`; 0 for a
+///         shape without area(), and if the observer is at the point.
 template <Shape S, std::floating_point T>
 [[nodiscard]] SeenPointT<T> sample_towards(const S& shape, const Vec3T<T>& from,
                                            const Vec2T<T>& u) noexcept {
@@ -131,8 +130,7 @@ template <Shape S, std::floating_point T>
         return {};
 }
 
-/// The density of sample_towards() at a point of the shape, per steradian at `from`. It
-/// is 0 for a shape without area().
+/// The density of sample_towards() at a point of the shape, per steradian at `from`.
 template <Shape S, std::floating_point T>
 [[nodiscard]] T pdf_towards(const S& shape, const Vec3T<T>& from,
                             const SurfacePointT<T>& point) noexcept {
@@ -149,23 +147,20 @@ template <Shape Lamp>
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
 }
 
-/// The texture coordinates of a hit: the u and v of the hit itself. See the group
-/// \ref texture_coordinates.
+/// The texture coordinates of a hit: its u and v. See \ref texture_coordinates.
 template <Shape S, std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const S& /*shape*/, const ShapeHitT<T>& hit,
                                            const SurfacePointT<T>& /*point*/) noexcept {
     return {hit.u, hit.v};
 }
 
-/// The form factor from a point to a shape that has facet_of(). It is the
-/// cosine-weighted fraction of the point's hemisphere that the shape fills, in closed
-/// form.
+/// The form factor, in [0, 1], from a point to a shape that has facet_of(): the
+/// cosine-weighted fraction of the point's hemisphere that the shape fills. The
+/// irradiance at the point is pi times the form factor times the radiance of the lamp.
 /// \param from        The point.
 /// \param normal      Unit normal of the surface at the point.
 /// \param lamp        The shape, which emits on the side of its normal.
 /// \param inside_out  True if the shape emits on the other side instead.
-/// \return The form factor, in [0, 1]. The irradiance at the point is pi times the form
-///         factor times the radiance of the lamp.
 template <Shape Flat, std::floating_point T>
 [[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
                                     const Flat& lamp, bool inside_out) noexcept

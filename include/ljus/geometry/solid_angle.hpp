@@ -13,9 +13,6 @@ namespace ljus {
 /// \brief Section 3.2.3: a shadow ray ends at a sampled point of a lamp. The density of
 /// the point per steradian contains a cosine and the squared distance, which the
 /// report's program forgot.
-///
-/// A shape may have its own sample_towards() and pdf_towards(). Otherwise the functions
-/// of shape.hpp are used.
 /// \{
 
 /// A sampled point of a shape, with its density.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/geometry/sphere.hpp
-/// \brief The sphere |X - C|^2 = R^2: its intersection with a ray, and sampling.
+/// \brief The sphere |X - C|^2 = R^2.
 
 #include <cmath>
 #include <concepts>
@@ -35,11 +35,11 @@ struct SphereT {
 using Sphere = SphereT<float>; ///< SphereT in float.
 // [sphere]
 
-/// The segment of a line inside a ball, in units of the direction's length.
+/// The segment of a line inside a sphere, in units of the direction's length.
 template <std::floating_point T>
 struct ChordT {
-    T enter = T(0); ///< The t at which the line enters the ball.
-    T leave = T(0); ///< The t at which the line leaves the ball.
+    T enter = T(0); ///< The t at which the line enters the sphere.
+    T leave = T(0); ///< The t at which the line leaves the sphere.
 };
 
 /// Both distances at which the infinite line of a ray meets a sphere.
@@ -50,12 +50,10 @@ struct ChordT {
 /// the nearest point of the line. This form is accurate even for a small, distant
 /// sphere. The second root is computed from the first one, without cancellation
 /// \cite haines2019.
-/// \tparam Compute  The precision of the arithmetic; by default that of the data.
-/// \param ray     The ray. Its direction may have any length except zero. Its range is
-///                ignored.
-/// \param sphere  The sphere. All lengths, and their products with the length of the
-///                direction, must be between 1e-18 and 1e18 in float, and between
-///                1e-150 and 1e150 in double.
+/// \tparam Compute  The precision of the arithmetic; by default that of the data. All
+///                  lengths, and their products with the length of the direction, must
+///                  be between 1e-18 and 1e18 in float, and between 1e-150 and 1e150 in
+///                  double.
 /// \return Both roots, finite, in the precision of the arithmetic. Nothing for a miss,
 ///         a NaN, an infinity, a zero direction, a radius not above 0, or a length
 ///         whose square overflows.
@@ -94,13 +92,11 @@ chord(const RayT<T>& ray, const SphereT<T>& sphere) noexcept {
 // [chord ends]
 
 /// The distance at which a ray first hits a sphere, from outside or inside.
-/// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \param ray     The ray. Hits lie within [t_min, t_max].
-/// \param sphere  The sphere. In float arithmetic its lengths must be between 1e-18 and
-///                1e18.
+/// \tparam Compute  The precision of the arithmetic, as for chord(); t is rounded to T
+///                  once.
 /// \return The smallest t of a hit, in units of the direction's length. Nothing for a
-///         miss, or for data for which chord() returns nothing.
-/// \cost That of chord() and three comparisons.
+///         miss.
+/// \cost That of chord().
 /// \report{Section 3.1.4, Eqs. (2) and (3)}
 // [intersect]
 template <typename Compute = void, std::floating_point T>
@@ -118,18 +114,14 @@ template <typename Compute = void, std::floating_point T>
 }
 // [intersect]
 
-/// The report's formula, term by term, for comparison. The ray is O + tD, and the
-/// sphere has the centre C and the radius R.
-///
+/// The report's formula, term by term, for comparison. The ray is O + tD with a
+/// direction of unit length, and the sphere has the centre C and the radius R.
 /// \f[ t = -\frac{u}{2} \pm \sqrt{\frac{u^2}{4} - v},\quad
 ///     u = 2\,D \cdot (O - C),\quad v = |O - C|^2 - R^2 \f]
 ///
 /// If the sphere is far away, \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal,
 /// and rounding destroys their difference.
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \param ray     A ray with a direction of unit length. Hits lie within [t_min,
-///                t_max].
-/// \param sphere  The sphere.
 /// \return As intersect() where the formula holds; otherwise undefined.
 /// \cost One square root, no division.
 /// \report{Section 3.1.4}
@@ -151,9 +143,7 @@ template <typename Compute = void, std::floating_point T>
 }
 // [as_printed]
 
-/// The outward unit normal of a sphere at a point on or near the sphere, except the
-/// centre. The vector from the centre is normalised instead of divided by the radius,
-/// because a computed hit is only near the sphere.
+/// The outward unit normal of a sphere at a point near the sphere, except the centre.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const SphereT<T>& sphere,
                               const Vec3T<T>& point) noexcept {
@@ -173,14 +163,11 @@ template <std::floating_point T>
     return T(4) * std::numbers::pi_v<T> * sphere.radius * sphere.radius;
 }
 
-/// The point of a sphere that a ray hit: the point O + tD of the ray, projected onto
-/// the sphere.
+/// The point of a sphere that a ray O + tD hit, projected onto the sphere.
 ///
-/// The vector from the centre C to the point is computed as (O - C) + tD. It is
-/// accurate even far from the scene's origin, where the coordinates of the point are
-/// large. If the sphere is so small and distant that nothing of that vector remains,
-/// the normal faces the ray.
-/// \return Position, error bound, outward normal.
+/// The vector from the centre C to the point is computed as (O - C) + tD, which is
+/// accurate even far from the scene's origin. If rounding leaves nothing of that
+/// vector, for a small, distant sphere, the normal faces the ray.
 // [surface_point]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const SphereT<T>& sphere,
@@ -197,8 +184,8 @@ template <std::floating_point T>
 }
 // [surface_point]
 
-/// Samples a point of a sphere uniformly. The density is 1 / area per squared scene
-/// unit. `u` is a point of the unit square.
+/// Samples a point of a sphere uniformly, with the density 1 / area per squared scene
+/// unit.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const SphereT<T>& sphere,
                                            const Vec2T<T>& u) noexcept {
@@ -211,15 +198,15 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The cone of directions from a point to a sphere.
+/// A cone of directions.
 template <std::floating_point T>
 struct ConeT {
-    Vec3T<T> axis{T(0), T(0), T(1)}; ///< Unit vector to the centre.
+    Vec3T<T> axis{T(0), T(0), T(1)}; ///< The axis, a unit vector.
     T one_minus_cos = T(2); ///< 1 - cos of the half angle; 2 for all directions.
 };
 
-/// The cone of directions in which an observer sees a sphere. It contains all
-/// directions if the observer is inside.
+/// The cone of directions from an observer to a sphere. It contains all directions if
+/// the observer is inside.
 template <std::floating_point T>
 [[nodiscard]] ConeT<T> cone_towards(const SphereT<T>& sphere,
                                     const Vec3T<T>& from) noexcept {
@@ -229,9 +216,8 @@ template <std::floating_point T>
     return {.axis = glm::normalize(way), .one_minus_cos = one_minus_cosine(sin2)};
 }
 
-/// Whether an observer is outside a sphere by more than the rounding error. Then the
-/// cone of directions to the sphere is sampled. Otherwise the area of the sphere is
-/// sampled.
+/// Whether an observer is outside a sphere by more than the rounding error, so that the
+/// cone of directions to the sphere can be sampled.
 template <std::floating_point T>
 [[nodiscard]] bool sees_cone(const SphereT<T>& sphere, const Vec3T<T>& from) noexcept {
     const T doubt = T(8) * std::numeric_limits<T>::epsilon() *
@@ -278,21 +264,20 @@ template <std::floating_point T>
     return pdf_uniform_cone(detail::cone_towards(sphere, from).one_minus_cos);
 }
 
-/// The u for which sample_towards() returns the point of a sphere that is nearest to
-/// the observer: (0, 0).
+/// The u for which sample_towards() returns the point nearest to the observer: (0, 0).
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> center_sample(const SphereT<T>& /*sphere*/) noexcept {
     return Vec2T<T>{T(0)};
 }
 
-/// The form factor from a point to a sphere: the cosine-weighted fraction of the
-/// point's hemisphere that the sphere fills, in closed form.
+/// The form factor, in [0, 1], from a point to a sphere: the cosine-weighted fraction
+/// of the point's hemisphere that the sphere fills.
 /// \param from        The point.
 /// \param normal      Unit normal of the surface at the point.
 /// \param lamp        The sphere, which emits on its outside.
 /// \param inside_out  True if the sphere emits on its inside instead.
-/// \return The form factor, in [0, 1]. Nothing if the horizon cuts the sphere, if the
-///         point lies inside the sphere, or if the inside emits.
+/// \return Nothing if the horizon cuts the sphere, if the point lies inside the sphere,
+///         or if the inside emits.
 template <std::floating_point T>
 [[nodiscard]] std::optional<T>
 form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal, const SphereT<T>& lamp,
@@ -331,9 +316,8 @@ template <std::floating_point T>
     return shape;
 }
 
-/// The texture coordinates of a point of a sphere, in [0, 1]: longitude and latitude,
-/// as in a GlobeMap at the sphere's centre. They are computed from the normal, which is
-/// accurate even far from the origin.
+/// The texture coordinates of a point of a sphere: longitude and latitude, as in
+/// globe_coordinates().
 /// \cost Two arc tangents.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const SphereT<T>& /*sphere*/,

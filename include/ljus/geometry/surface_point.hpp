@@ -47,8 +47,8 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
     to.tilt = from.tilt;
 }
 
-/// Adds the tilt of a flat shape's plane to the error of a point on the shape. The next
-/// intersection test sees the plane tilted, because of rounding.
+/// Adds the tilt of a flat shape's plane to the error of a point on the shape. Because
+/// of rounding, the next intersection test sees the plane tilted.
 ///
 /// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
 /// point lies. E_1 and E_2 are the edges, and T is the vector from a corner to the
@@ -73,11 +73,9 @@ void add_tilt(SurfacePointT<T>& point, const Vec3T<T>& e1,
 }
 // [add_tilt]
 
-/// Whether two edges span an area and so define a normal. An area that may stem from
-/// rounding alone does not count.
-/// \param a  An edge, in double, with a length between 1e-150 and 1e150.
-/// \param b  The other edge, with a length in the same range.
-/// \return False for parallel edges, and if the sine of their angle is below 1e-15.
+/// Whether two edges define a normal: whether a component of their cross product
+/// exceeds its rounding error. The edges must be in double, with lengths between 1e-150
+/// and 1e150.
 template <std::floating_point W>
 [[nodiscard]] bool span_area(const Vec3T<W>& a, const Vec3T<W>& b) noexcept {
     constexpr W bound = W(1.75) * std::numeric_limits<W>::epsilon();
@@ -103,18 +101,15 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The origin of a ray that leaves a surface. It is on the side to which `direction`
-/// points, and as close to the surface as rounding permits.
+/// points, and as close to the surface as rounding permits. `direction` may have any
+/// length.
 ///
-/// The report's program has four fixed offsets, from 0.0001 to 0.1. A fixed offset is
-/// too long for a small scene and too short far from the origin. Here the offset along
-/// the normal is twice the point's error along the normal, plus 4 units in the last
-/// place of its largest coordinate.
+/// The offset along the normal is twice the point's error along the normal, plus 4
+/// units in the last place of its largest coordinate. The fixed offsets of the report's
+/// program are too long for a small scene and too short far from the origin.
 ///
 /// In double, a ray that leaves a flat shape may hit the shape again if its angle to
-/// the plane is below about 20 units of roundoff times the point's `tilt`. Below that
-/// angle, double cannot tell to which side of the plane the ray goes.
-/// \param point      A point of the surface, with its error.
-/// \param direction  Direction of the ray, of any length.
+/// the plane is below about 20 units of roundoff times the point's `tilt`.
 /// \report{Definition 3.1}
 // [offset_ray_origin]
 template <std::floating_point T>
@@ -138,10 +133,9 @@ template <std::floating_point T>
 
 /// A ray from one surface point to another. It hits neither surface at its ends.
 ///
-/// The rounding error of a hit grows with the length of the ray. The ray therefore ends
-/// short of `to` by this error. Otherwise a lamp could shadow itself from a distant
-/// point.
-/// \return The ray. Its direction is the vector from its origin to its end, at t = 1.
+/// The rounding error of a hit grows with the length of the ray. The ray ends short of
+/// `to` by this error, because a lamp could otherwise shadow itself.
+/// \return Its direction is the vector from its origin to its end, at t = 1.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,
@@ -199,25 +193,17 @@ enum class Spanned : std::uint8_t {
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
 ///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
 ///
-/// If the determinant \f$ P \cdot E_1 \f$ is 0, the quotients are infinite or NaN,
-/// which is a miss. If the determinant overflows, the ray misses as well.
+/// A determinant \f$ P \cdot E_1 \f$ that is 0 or overflows is a miss.
 ///
-/// The rounding of a hit on the common edge of two triangles is different in each
-/// triangle. If the arithmetic is wider than the data, the shape includes a border as
-/// wide as this rounding error, so that a ray hits at least one of the two. The border
-/// is omitted if it would be wider than the rounding of the data. See
-/// border_of_rounding().
-/// \tparam shape    What the two edges span.
+/// Two triangles round a hit on their common edge differently. If the arithmetic is
+/// wider than the data, each shape therefore has a border as wide as this rounding
+/// error, so that a ray hits at least one of the two. The border is omitted if it would
+/// be wider than the rounding of the data.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In
 ///                  float, shapes and distances must be between 1e-15 and 1e15.
-/// \param ray  The ray. Its direction may have any length except zero. Hits lie in
-///             [t_min, t_max].
-/// \param v1   A corner.
-/// \param e1   Edge of the coordinate u.
-/// \param e2   Edge of the coordinate v.
 /// \return The distance t and the coordinates u and v; nothing for a miss or a
 ///         non-finite input.
-/// \cost One division, 25 multiplications, and 6 more for t \cite moller1997.
+/// \cost One division, 23 multiplications, and 6 more for t \cite moller1997.
 /// \report{Section 3.1.5}
 /// \erratum{The report omits u, v and the conditions on them. Without these conditions
 ///          every ray that crosses the plane hits.}

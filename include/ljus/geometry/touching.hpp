@@ -19,9 +19,8 @@ namespace ljus {
 /// the floor under the slab. Chapter: \ref ch_refraction.
 /// \{
 
-/// A piece of a surface: a convex polygon, a sphere or a tube. The facet of a sphere
-/// has one corner, its centre. The facet of a tube has two corners, the ends of its
-/// axis.
+/// A convex polygon, a sphere or a tube. The facet of a sphere has one corner, its
+/// centre. The facet of a tube has two corners, the ends of its axis.
 struct SurfacePiece {
     Facet facet{};              ///< The polygon, the centre, or the axis.
     double radius = 0;          ///< The radius of a sphere or a tube; 0 for a polygon.
@@ -63,7 +62,7 @@ heights_of(const SurfacePiece& piece, const glm::dvec3& point,
     return {low - piece.radius, high + piece.radius};
 }
 
-/// Whether the line along an edge of a polygon separates the polygon from another piece
+/// Whether a line along an edge of a polygon separates the polygon from another polygon
 /// in the same plane. Polygons that only share an edge are separated.
 [[nodiscard, gnu::cold]] inline bool
 separated(const Facet& facet, const SurfacePiece& other, double distance) noexcept {
@@ -90,8 +89,7 @@ separated(const Facet& facet, const SurfacePiece& other, double distance) noexce
     return glm::length(glm::cross(a, b)) <= 1e-6 * glm::length(a) * glm::length(b);
 }
 
-/// A rectangle around all positions of a polygon that is displaced within its plane. It
-/// may be larger than necessary, because rays later find what really touches.
+/// A rectangle around all positions of a polygon that is displaced within its plane.
 [[nodiscard, gnu::cold]] inline Facet around_way(const Facet& facet,
                                                  const glm::dvec3& way) noexcept {
     const glm::dvec3 normal = glm::normalize(area_vector(facet));
@@ -118,12 +116,9 @@ around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
     return {touch - half, touch + half};
 }
 
-/// The region that two polygons share.
-/// \param one       The larger polygon.
-/// \param other     The smaller polygon.
-/// \param way       Displacement of `other` relative to `one`, from time 0 to 1.
-/// \param distance  Surfaces within this distance, in scene units, count as coincident.
-/// \return As shared_place(). The box may be as large as `other`.
+/// The region that a polygon shares with a smaller one, as shared_place(); its box may
+/// be as large as `other`. `way` is the displacement of `other` relative to `one`, from
+/// time 0 to 1.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,
                    double distance) noexcept {
@@ -223,12 +218,10 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
 
 } // namespace detail
 
-/// The region that two pieces of surfaces share at any time in [0, 1].
-/// \param one       A piece.
-/// \param other     The other piece.
-/// \param distance  Surfaces within this distance, in scene units, count as coincident.
-/// \return The shared region. Nothing if the pieces cross, if they share only an edge
-///         or a corner, or if they meet only for an instant.
+/// The region that two pieces of surfaces share at any time in [0, 1]. Surfaces within
+/// `distance`, in scene units, count as coincident.
+/// \return Nothing if the pieces cross, if they share only an edge or a corner, or if
+///         they meet only for an instant.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_place(const SurfacePiece& one, const SurfacePiece& other,
              double distance) noexcept {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "ljus/geometry/box.hpp"
@@ -37,8 +36,7 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// The cross product of the two edges at a triangle's first vertex, in double. Its
-/// direction is the normal, and its length is twice the area. In float, the normal of a
+/// The normal of a triangle times twice its area, in double: in float, the normal of a
 /// thin triangle would be inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
@@ -61,13 +59,10 @@ template <std::floating_point T>
 /// Intersects a ray with a triangle.
 /// \tparam Compute  The precision of the arithmetic; by default double, with which no
 ///                  ray passes between two adjacent triangles. intersect<float>() is
-///                  the report's formula, which misses one in six rays aimed at edges.
-/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
-///                  [t_min, t_max].
-/// \param triangle  The triangle. A triangle without an area is never hit; see
-///                  has_area().
+///                  the report's formula, which misses some rays aimed at edges.
 /// \return The distance t, and the barycentric coordinates u and v of the hit
-///         \f$(1-u-v)V_1 + uV_2 + vV_3\f$. Nothing for a miss.
+///         \f$(1-u-v)V_1 + uV_2 + vV_3\f$. Nothing for a miss, or for a triangle
+///         without an area.
 /// \report{Section 3.1.5}
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
@@ -76,14 +71,12 @@ intersect(const RayT<T>& ray, const TriangleT<T>& triangle) noexcept {
     const Vec3T<C> v1{triangle.v1};
     auto hit = moller_trumbore<Spanned::triangle, C>(
         ray, v1, Vec3T<C>{triangle.v2} - v1, Vec3T<C>{triangle.v3} - v1);
-    // Rounding may give collinear corners an area. One variable and one return avoid a
-    // copy.
+    // Rounding may give collinear corners an area.
     if (hit && !has_area(triangle)) hit.reset();
     return hit;
 }
 
-/// The unit normal of a triangle, around which the vertices turn counter-clockwise. The
-/// triangle's area must not be 0.
+/// The unit normal of a triangle, whose area must not be 0.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> normal(const TriangleT<T>& triangle) noexcept {
     return Vec3T<T>(glm::normalize(detail::cross_of_edges(triangle)));
@@ -95,9 +88,8 @@ template <std::floating_point T>
     return static_cast<T>(glm::length(detail::cross_of_edges(triangle)) / 2);
 }
 
-/// The point of a triangle with the barycentric coordinates u and v, with an error
-/// bound. u and v are the weights of the second and the third vertex. `normal` must be
-/// the result of normal(triangle).
+/// The point of a triangle with the barycentric coordinates u and v, the weights of the
+/// second and the third vertex. `normal` must be the result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u, T v,
                                         const Vec3T<T>& normal) noexcept {
@@ -120,11 +112,8 @@ template <std::floating_point T>
     return point_at(triangle, u, v, normal(triangle));
 }
 
-/// Samples a point of a triangle uniformly. The area must not be 0. The density is
-/// 1 / area per squared scene unit.
-/// \param triangle  The triangle.
-/// \param u         Point of the unit square.
-/// \param normal    The result of normal(triangle).
+/// Samples a point of a triangle uniformly, with the density 1 / area per squared scene
+/// unit. `normal` must be the result of normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u,
@@ -140,7 +129,7 @@ template <std::floating_point T>
     return sample_area(triangle, u, normal(triangle));
 }
 
-/// The point of a triangle at a hit, from the hit's coordinates u and v.
+/// The point of a triangle at the u and v of a hit.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const TriangleT<T>& triangle,
                                              const RayT<T>& /*ray*/,
@@ -179,7 +168,7 @@ template <std::floating_point T>
             glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
 }
 
-/// The edges of a triangle, along which its texture coordinates u and v grow.
+/// The edges of a triangle at its first vertex.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const TriangleT<T>& triangle, const ShapeHitT<T>& /*hit*/) noexcept {

@@ -17,14 +17,13 @@ namespace ljus {
 /// \{
 
 /// Selects the watertight test for triangles: `intersect<Watertight>(ray, triangle)`.
-/// Loops and trees accept it in place of a precision. Spheres are then intersected in
-/// their usual precision, and quads in double.
+/// Loops and trees accept Watertight in place of a precision. Spheres are then
+/// intersected in their usual precision, and quads in double.
 struct Watertight {};
 
 namespace detail {
 
-/// The shear that maps a ray's direction D to the z axis, after an exchange of axes. It
-/// is the same for all triangles.
+/// The shear that maps a ray's direction D to the z axis, after an exchange of axes.
 template <std::floating_point T>
 struct ShearT {
     int x = 0;   ///< The axis that becomes x.
@@ -38,10 +37,8 @@ struct ShearT {
 
 } // namespace detail
 
-/// Computes the shear that maps a ray to the z axis.
-/// \tparam Test  Watertight.
-/// \param ray  A ray. If its direction is zero, NaN or infinite, the shear makes every
-///             test a miss.
+/// Computes the shear that maps a ray to the z axis. If the ray's direction is zero,
+/// NaN or infinite, the shear makes every test a miss.
 template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] detail::ShearT<T> prepare(const RayT<T>& ray) noexcept {
     const Vec3T<T> size = detail::sizes(ray.direction);
@@ -59,18 +56,13 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 /// ray at a common edge hits at least one of its two triangles. A ray at a common
 /// vertex hits at least one of the triangles around the vertex.
 ///
-/// The shear maps the ray to the z axis. The projected triangle contains the origin if
-/// \f$ P_x Q_y - P_y Q_x \f$ has the same sign for all three edges from P to Q. A
-/// vertex is rounded in the same way in all its triangles. The products of two floats
-/// are exact in double, so that the sign is exact. Triangles that share vertices and
-/// have exact signs leave no gap \cite woop2013.
-/// \tparam Test  Watertight.
-/// \param ray       The ray. Its direction may have any length except zero. Hits lie in
-///                  [t_min, t_max].
-/// \param triangle  The triangle. A triangle without an area is never hit.
-/// \param shear     Result of prepare() for this ray.
-/// \return The distance t, and the barycentric coordinates u and v. Nothing for a miss
-///         or a non-finite input.
+/// The shear of prepare() maps the ray to the z axis. The projected triangle contains
+/// the origin if \f$ P_x Q_y - P_y Q_x \f$ has the same sign for all three edges from P
+/// to Q. A vertex is rounded in the same way in all its triangles. The products of two
+/// floats are exact in double, so that the sign is exact. Triangles that share vertices
+/// and have exact signs leave no gap \cite woop2013.
+/// \return The distance t, and the barycentric coordinates u and v. Nothing for a miss,
+///         a triangle without an area, or a non-finite input.
 /// \cost 6 products for most misses; a hit needs 6 more for its edges, one division,
 ///       and 7 products for t, u and v.
 /// \report{Section 3.1.5}

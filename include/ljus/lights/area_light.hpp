@@ -25,9 +25,8 @@ struct LampT {
     std::vector<double> area_sums{};
 };
 
-/// A lamp: a shape that emits uniform radiance on one side. This is the side of the
-/// normal, or the other side if LampT::inside_out is true. A scene makes a lamp from an
-/// object with a radiance.
+/// A lamp: a shape that emits uniform radiance on one side. A scene makes a lamp from
+/// an object with a radiance.
 template <Shape S>
 struct AreaLightT {
     using Scalar = ScalarOf<S>; ///< The precision of its numbers.
@@ -37,13 +36,13 @@ struct AreaLightT {
 
 namespace detail {
 
-/// Whether a type of light is a lamp: a surface that emits diffusely from each point.
+/// Whether a light is a surface that emits diffusely from each point.
 template <typename L>
 inline constexpr bool is_lamp = false;
 template <typename S>
 inline constexpr bool is_lamp<AreaLightT<S>> = true;
 
-/// Whether a shape has area_sums(). A lamp then stores the result of this function.
+/// Whether a shape has area_sums(), whose result a lamp then stores.
 template <typename S>
 inline constexpr bool has_area_sums = requires(const S& shape) {
     area_sums(shape);
@@ -74,12 +73,8 @@ template <typename S>
     return RgbT<T>{std::numbers::pi_v<T> * light.lamp.area * light.lamp.radiance};
 }
 
-/// Samples a point of the lamp for a shadow ray.
-/// \param light  The lamp.
-/// \param from   The lit point.
-/// \param u      Point of the unit square.
-/// \param time   Time of the path, in [0, 1].
-/// \return The sample; nothing if `from` is not on the emitting side of the lamp.
+/// Samples a point of the lamp for a shadow ray from the point `from`.
+/// \return Nothing if `from` is not on the emitting side of the lamp.
 /// \report{Section 3.2.3}
 /// \erratum{The report's program leaves out the area of the lamp and the inverse square
 /// of the distance. It lights a wall ten times as far away as brightly as a near wall.}
@@ -115,8 +110,8 @@ template <typename S, std::floating_point T>
     return sample;
 }
 
-/// Samples the origin of a photon, uniformly over the area.
-/// \return The point. Its normal points to the emitting side.
+/// Samples the origin of a photon, uniformly over the area. Its normal points to the
+/// emitting side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
                                               const Vec2T<T>& u, T time) {
@@ -131,8 +126,7 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// Samples the unit direction of a photon from an emission_point(). The density is the
-/// cosine to the normal over pi, per steradian.
+/// Samples the unit direction of a photon, with the density pdf_emission().
 template <typename L, std::floating_point T>
 requires detail::is_lamp<L>
 [[nodiscard]] Vec3T<T> sample_emission(const L&, const SurfacePointT<T>& point,
@@ -172,8 +166,7 @@ template <typename S, std::floating_point T>
         return std::nullopt;
 }
 
-/// The point u of the unit square for which sample_light() returns the centre of the
-/// lamp.
+/// The u for which sample_light() returns the centre of the lamp.
 template <typename S>
 [[nodiscard]] auto center_sample(const AreaLightT<S>& light) noexcept {
     return center_sample(light.shape);

@@ -32,9 +32,8 @@ namespace ljus {
 /// is a constant sky.
 /// \{
 
-/// Light from infinitely far away, from all directions. It is given by a picture of a
-/// sky or of a place. Its flux is the light that falls into the sphere around all
-/// shapes of the scene.
+/// Light from infinitely far away, from all directions, given by a picture. Its flux is
+/// the light that falls into the sphere around all shapes of the scene.
 ///
 ///     scene.add(EnvironmentLight{.picture = load_hdr("garden.hdr"), .strength = 2});
 ///     scene.add(EnvironmentLight{.picture = make_image(1, 1, Rgb{0.2f, 0.4f, 1})});
@@ -73,7 +72,7 @@ template <std::floating_point T>
 }
 
 /// The solid angle of a pixel in row y, in steradians. A row of pixels is a belt of the
-/// unit sphere. The area of a belt is 2 pi times its extent in height.
+/// unit sphere, whose area is 2 pi times its extent in height.
 // [solid angle of pixel]
 [[nodiscard]] inline double solid_angle_of_pixel(int width, int height,
                                                  int y) noexcept {
@@ -128,7 +127,7 @@ void check(const EnvironmentLightT<T>& light) {
     require_radiance("environment light.picture", light.picture);
 }
 
-/// Prepares an environment for its scene. The environment must have passed check().
+/// Prepares an environment, which must have passed check(), for its scene.
 /// \cost A sum over all pixels; 8 bytes per pixel besides the picture.
 template <std::floating_point T>
 [[nodiscard]] EnvironmentInSceneT<T> in_scene(const EnvironmentLightT<T>& light,
@@ -206,11 +205,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples the light for a shadow ray. The ray ends outside the scene.
-/// \param light  The light.
-/// \param from   The lit point, within the sphere around the scene.
-/// \param u      Point of the unit square.
-/// \return The sample. Its weight is the radiance over the pdf.
+/// Samples the light for a shadow ray from a point within the sphere around the scene.
+/// The ray ends outside the scene. The weight is the radiance over the pdf.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const EnvironmentInSceneT<T>& light, const Vec3T<T>& from,
@@ -224,7 +220,6 @@ sample_light(const EnvironmentInSceneT<T>& light, const Vec3T<T>& from,
 }
 
 /// Samples the direction of a photon in proportion to the brightness of the sky.
-/// \return The direction, and the radiance over the density of the direction.
 template <std::floating_point T>
 [[nodiscard]] ArrivalT<T> sample_arrival(const EnvironmentInSceneT<T>& light,
                                          const Vec2T<T>& u) noexcept {
@@ -232,10 +227,8 @@ template <std::floating_point T>
     return {-wi, radiance / pdf};
 }
 
-/// The radiance that a ray meets when it leaves the scene.
-/// \param light      The light.
-/// \param direction  Unit direction of the ray.
-/// \return The radiance of one pixel, without interpolation, in W/(m^2 sr).
+/// The radiance that a ray of a unit direction meets when it leaves the scene, in
+/// W/(m^2 sr): that of a pixel, without interpolation.
 // [escaped_radiance]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> escaped_radiance(const EnvironmentInSceneT<T>& light,
@@ -254,8 +247,7 @@ template <std::floating_point T>
 }
 // [escaped_radiance]
 
-/// The density with which sample_light() chooses a direction, per steradian; 0 where
-/// the sky is black.
+/// The density with which sample_light() chooses a direction, per steradian.
 template <std::floating_point T>
 [[nodiscard]] T pdf_escaped(const EnvironmentInSceneT<T>& light,
                             const Vec3T<T>& direction) noexcept {

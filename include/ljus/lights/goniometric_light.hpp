@@ -18,9 +18,9 @@ namespace ljus {
 /// \brief Beyond the report: lamps with measured intensities. Chapter: \ref ch_lamps.
 ///
 /// A goniophotometer turns a lamp about two axes and measures its intensity in each
-/// position \cite lm63. The two angles are coordinates on the sphere of directions. The
-/// type of the photometer determines the pole of these coordinates. In the table,
-/// `direction` and `reference` are vectors of the lamp, see GoniometricLightT:
+/// position \cite lm63. The two angles are coordinates on the sphere of directions,
+/// whose pole the type of the photometer determines. `direction` and `reference` are
+/// those of a GoniometricLightT:
 ///
 /// | type | pole                  | polar angle     | azimuth                        |
 /// |------|-----------------------|-----------------|--------------------------------|
@@ -53,8 +53,7 @@ struct IntensityTable {
     std::vector<double> candela{};
 };
 
-/// A light without extent whose intensity is given by a table, for example by one that
-/// load_ies() has read.
+/// A light without extent whose intensity is given by a table, as of load_ies().
 ///
 ///     scene.add(GoniometricLight{.table = load_ies("spot.ies").table,
 ///                                .position{0, 2.4f, 0}});
@@ -105,14 +104,8 @@ namespace detail {
 }
 // [line times sine]
 
-/// The inverse of line_times_sine(): the x at which the integral is a given fraction of
-/// its value at x = length.
-/// \param c0      The linear function at x = 0, at least 0.
-/// \param c1      The slope of the linear function.
-/// \param theta0  The angle at x = 0, in radians.
-/// \param length  The largest x, in radians.
-/// \param part    The fraction, in [0, 1].
-/// \return In [0, length].
+/// The inverse of line_times_sine(): the x in [0, length] at which the integral is the
+/// fraction `part` of its value at x = length.
 /// \cost About four steps of Newton's method, safeguarded by bisection.
 [[nodiscard]] inline double invert_line_times_sine(double c0, double c1, double theta0,
                                                    double length,
@@ -131,10 +124,8 @@ namespace detail {
     return x;
 }
 
-/// The x at which the integral of a linear function from 0 to x is a given fraction of
-/// its integral from 0 to 1.
-/// \param a, b  The function at 0 and at 1, at least 0.
-/// \param part  The fraction, in [0, 1].
+/// The x at which the integral from 0 of a linear function is the fraction `part` of
+/// its integral from 0 to 1. The function is a at 0 and b at 1; neither is negative.
 [[nodiscard]] inline double invert_line(double a, double b, double part) noexcept {
     // x is the root in [0, 1] of (b - a) x^2 / 2 + a x = part (a + b) / 2.
     const double both = part * (a + b);
@@ -147,8 +138,8 @@ struct BetweenAngles {
     double part = 0;       ///< The position: 0 at the smaller angle, 1 at the larger.
 };
 
-/// The position of an angle among angles in increasing order.
-/// \return Nothing if the angle is outside their range.
+/// The position of an angle among angles in increasing order; nothing outside their
+/// range.
 [[nodiscard]] inline std::optional<BetweenAngles>
 between_angles(const std::vector<double>& angles, double angle) noexcept {
     if (!(angle >= angles.front() && angle <= angles.back())) return std::nullopt;
@@ -158,18 +149,15 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
-/// The intensities at the four corners of a cell of the table, in cd. Each array holds
-/// those at the smaller and at the larger azimuth.
+/// The intensities at the corners of a cell of the table, in cd: in each array at the
+/// smaller and then at the larger azimuth.
 struct CellCorners {
     double low[2] = {};  ///< Intensities at the smaller polar angle.
     double high[2] = {}; ///< Intensities at the larger polar angle.
 };
 
-/// The intensities at the corners of a cell.
-/// \param candela  IntensityTable::candela.
-/// \param rows     The number of polar angles.
-/// \param polar    Index of the cell's smaller polar angle.
-/// \param azimuth  Index of the cell's smaller azimuth.
+/// The intensities at the corners of a cell, in a table with `rows` polar angles.
+/// `polar` and `azimuth` are the indices of the cell's smaller angles.
 [[nodiscard]] inline CellCorners corners_of(const std::vector<double>& candela,
                                             std::size_t rows, std::size_t polar,
                                             std::size_t azimuth) noexcept {
@@ -198,14 +186,12 @@ template <std::floating_point T>
                      std::lerp(high[0], high[1], azimuth->part), polar->part);
 }
 
-/// The coordinate frame, in the world, in which the angles of a light's table are
-/// measured. Its normal is the direction of the pole, and its tangent is the direction
-/// of azimuth 0.
+/// The frame in which the angles of a light's table are measured, in the world. Its
+/// normal points to the pole, and its tangent to azimuth 0.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_of(const GoniometricLightT<T>& light) {
-    const Vec3T<T> aim = unit_along("goniometric light.direction", light.direction);
-    const Vec3T<T> across =
-        glm::cross(aim, unit_along("goniometric light.reference", light.reference));
+    const Vec3T<T> aim = unit_along(light.direction);
+    const Vec3T<T> across = glm::cross(aim, unit_along(light.reference));
     require(glm::dot(across, across) > T(1e-8), "goniometric light.reference",
             light.reference, "a vector that is not along the direction");
     const Vec3T<T> side = glm::normalize(across);
@@ -267,11 +253,12 @@ void check(const GoniometricLightT<T>& light) {
     check(light.table);
     require_finite("goniometric light.position", light.position);
     require_radiance("goniometric light.watts_per_lumen", light.watts_per_lumen);
+    require_direction("goniometric light.direction", light.direction);
+    require_direction("goniometric light.reference", light.reference);
     (void)detail::frame_of(light);
 }
 
-/// Prepares a light for its scene: integrates the intensity between neighbouring
-/// angles. The light must have passed check().
+/// Prepares a light, which must have passed check(), for its scene.
 /// \cost 8 bytes per intensity besides the table.
 template <std::floating_point T>
 [[nodiscard]] GoniometricInSceneT<T> in_scene(const GoniometricLightT<T>& light,
@@ -326,9 +313,9 @@ template <std::floating_point T>
     return static_cast<T>(detail::lumens_of(light)) * light.watts_per_lumen;
 }
 
-/// Samples the light for a shadow ray from a point.
-/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
-///         Nothing if the intensity towards `from` is 0.
+/// Samples the light for a shadow ray. The weight is intensity over squared distance,
+/// and the pdf is 0.
+/// \return Nothing if the intensity towards `from` is 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const GoniometricInSceneT<T>& light, const Vec3T<T>& from,
@@ -339,17 +326,16 @@ sample_light(const GoniometricInSceneT<T>& light, const Vec3T<T>& from,
     });
 }
 
-/// The point from which the light emits photons: its position.
+/// The position of the light.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const GoniometricInSceneT<T>& light,
                                       const Vec2T<T>&, T) noexcept {
     return light.position;
 }
 
-/// Samples the unit direction of a photon, in proportion to the intensity. The function
-/// chooses a cell of the table by its flux, then a polar angle within the cell, and
-/// then an azimuth.
-/// \cost Two binary searches, and about four sines and cosines for Newton's method.
+/// Samples the unit direction of a photon, in proportion to the intensity: a cell of
+/// the table by its flux, then a polar angle within the cell, and then an azimuth.
+/// \cost Two binary searches, and about four steps of Newton's method.
 // [sample_emission]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const GoniometricInSceneT<T>& light,

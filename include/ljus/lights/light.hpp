@@ -3,7 +3,6 @@
 /// \file ljus/lights/light.hpp
 /// \brief The interface of a light for shadow rays, photons and paths.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -44,8 +43,7 @@ namespace ljus {
 /// |-------------------------------------|--------------------------------------------|
 /// | sample_arrival(light, u)            | a direction of travel, and the irradiance  |
 ///
-/// The table lists the optional functions, their purpose, and what happens without
-/// them:
+/// Each row has an optional function, its purpose, and what happens without it:
 ///
 /// \snippet{lineno} ljus/lights/light.hpp light hooks
 /// \{
@@ -86,25 +84,16 @@ template <std::floating_point T>
     return c.x + c.y + c.z;
 }
 
-/// Normalises a direction of any length above 0.
-/// \param what  The name of the direction, for the message.
-/// \param way   The direction.
-/// \throws std::invalid_argument  if the direction is 0 or not finite.
+/// Normalises a direction that require_direction() accepts.
 template <std::floating_point T>
-[[nodiscard]] Vec3T<T> unit_along(std::string_view what, const Vec3T<T>& way) {
-    require_finite(what, way);
+[[nodiscard]] Vec3T<T> unit_along(const Vec3T<T>& way) noexcept {
     // The direction is scaled first, because in float the square of 1e-30 is 0.
-    const T most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-    require(most > T(0), what, way, "of a length above 0");
-    return glm::normalize(way / most);
+    return glm::normalize(way / max_component(glm::abs(way)));
 }
 
 /// The sample of a light without extent. Its weight is intensity over squared distance.
-/// \param position   The position of the light.
-/// \param from       The lit point.
-/// \param intensity  A function of the unit direction away from the light; returns
-///                   W/sr.
-/// \return The sample; nothing if no light arrives.
+/// `intensity` returns W/sr for a unit direction away from the light.
+/// \return Nothing if no light arrives.
 template <std::floating_point T, typename Intensity>
 [[nodiscard]] std::optional<LightSampleT<T>> sample_point(const Vec3T<T>& position,
                                                           const Vec3T<T>& from,
@@ -122,9 +111,8 @@ template <std::floating_point T, typename Intensity>
 
 } // namespace detail
 
-/// Prepares a light for its scene. This function serves lights that need no
-/// preparation, and returns the light itself. A sun has its own in_scene(), which adds
-/// the sphere around the scene.
+/// Prepares a light for its scene. A light that needs no preparation is returned as it
+/// is. A sun has its own in_scene(), which adds the sphere around the scene.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;
@@ -149,16 +137,14 @@ concept NearLight = requires(const L& light, const Vec2T<typename L::Scalar>& u,
         } -> std::same_as<typename L::Scalar>;
 };
 
-/// A light at infinity. The radiance from a direction is the same at all points of the
-/// scene.
+/// A light at infinity. Its radiance is the same at all points of the scene.
 template <typename L>
 concept FarLight = requires(const L& light, const Vec2T<typename L::Scalar>& u) {
     { light.around } -> std::convertible_to<SphereT<typename L::Scalar>>;
     { sample_arrival(light, u) } -> std::same_as<ArrivalT<typename L::Scalar>>;
 };
 
-/// A light as its scene stores it. Its functions are described at the top of this page,
-/// \ref light.
+/// A light as its scene stores it; see \ref light.
 template <typename L>
 concept Light = requires(const L& light, const Vec3T<typename L::Scalar>& from,
                          const Vec2T<typename L::Scalar>& u, typename L::Scalar time) {
@@ -215,8 +201,7 @@ template <Light L>
 // clang-format on
 }
 
-/// A cone that contains all directions into which a point of a light emits. If the
-/// light has no emission_cone(), the cone is the whole sphere.
+/// A cone that contains all directions into which a point of a light emits.
 template <typename L, typename Point>
 [[nodiscard]] ConeT<typename L::Scalar> cone_of_emission(const L& light,
                                                          const Point& point) {
@@ -236,13 +221,9 @@ template <std::floating_point T>
     return point;
 }
 
-/// A ray of a distant light through a random point of a disc. The disc is perpendicular
-/// to the ray. The ray starts on a plane outside the scene.
-/// \param around     The sphere around the scene.
-/// \param direction  Unit direction of the ray.
-/// \param center     Centre of the disc.
-/// \param radius     Radius of the disc.
-/// \param u          Point of the unit square.
+/// A ray of a distant light through a random point of a disc that is perpendicular to
+/// the ray's unit direction. The ray starts on a plane that touches the sphere `around`
+/// the scene.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_from_afar(const SphereT<T>& around, const Vec3T<T>& direction,
                                     const Vec3T<T>& center, T radius,
@@ -254,7 +235,7 @@ template <std::floating_point T>
             .direction = direction};
 }
 
-/// The area of a disc: the cross section of a sphere of this radius.
+/// The area of a disc.
 template <std::floating_point T>
 [[nodiscard]] constexpr T disc_area(T radius) noexcept {
     return std::numbers::pi_v<T> * radius * radius;

@@ -21,8 +21,8 @@ namespace ljus {
 /// \{
 
 /// A textured lamp as a World stores it. A World makes it from an object that emits and
-/// has a material of the concept ShowsPicture. The points of the lamp are sampled in
-/// proportion to the brightness of their pixels.
+/// has a material of the concept ShowsPicture. Points are sampled in proportion to the
+/// brightness of their pixels.
 template <std::floating_point T>
 struct PictureLightT {
     using Scalar = T;      ///< The precision of its numbers.
@@ -64,12 +64,11 @@ inline constexpr bool is_lamp<PictureLightT<T>> = true;
     return std::clamp(area / ((right - left) * (bottom - top)), 0.0, 1.0);
 }
 
-/// The frame of a picture on a quad: the quad itself.
+/// The frame of a picture: the quad itself, or the square around a disc.
 template <std::floating_point T>
 [[nodiscard]] QuadT<T> picture_frame(const QuadT<T>& quad) noexcept {
     return quad;
 }
-/// The frame of a picture on a disc: the square around it.
 template <std::floating_point T>
 [[nodiscard]] QuadT<T> picture_frame(const DiscT<T>& disc) noexcept {
     const FrameT<T> frame = frame_around(normal(disc));
@@ -84,7 +83,7 @@ template <std::floating_point T>
 
 /// Makes a textured lamp.
 /// \param shape       A quad or a disc.
-/// \param picture     The picture. Its colours are factors of the radiance.
+/// \param picture     Factors of the radiance.
 /// \param radiance    The emitted radiance in W/(m^2 sr) where the picture is white.
 /// \param inside_out  True if the lamp shines on the side opposite to the normal.
 /// \throws std::invalid_argument  if no pixel shines, or if the shape is not a quad or
@@ -119,10 +118,8 @@ make_picture_light(const S& shape, const ImageT<T>& picture, const RgbT<T>& radi
     }
 }
 
-/// The radiance at a point of the picture, in W/(m^2 sr), without interpolation between
-/// pixels.
-/// \param light  The lamp.
-/// \param uv     Point in [0, 1]^2; (0, 0) is the lower left corner of the picture.
+/// The radiance at a point of the picture, in W/(m^2 sr), without interpolation. For
+/// `uv`, (0, 0) is the lower left corner of the picture, and (1, 1) the upper right.
 template <std::floating_point T>
 [[nodiscard]] const RgbT<T>& radiance_at(const PictureLightT<T>& light,
                                          const Vec2T<T>& uv) noexcept {
@@ -133,10 +130,8 @@ template <std::floating_point T>
                  cell(T(1) - uv.y, light.picture.height));
 }
 
-/// The density with which a point of the lamp is sampled, per squared scene unit: the
-/// brightness there over the integral of the brightness.
-/// \param light     The lamp.
-/// \param radiance  The radiance at the point, from radiance_at().
+/// The density with which a point of the given radiance is sampled, per squared scene
+/// unit: the brightness of the radiance over the integral of the brightness.
 // [pdf of point]
 template <std::floating_point T>
 [[nodiscard]] T pdf_of_point(const PictureLightT<T>& light,
@@ -193,8 +188,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Samples a point of the lamp for a shadow ray.
-/// \return The sample. Nothing if `from` lies behind the lamp, or if the sampled point
-///         lies outside the disc, which happens in pixels on the disc's edge.
+/// \return Nothing if `from` lies behind the lamp, or if the sampled point lies outside
+///         the disc, which happens in pixels on the disc's edge.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& u,
@@ -211,11 +206,7 @@ sample_light(const PictureLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>
 }
 
 /// The density with which sample_light() chooses a point of the lamp, per steradian at
-/// the lit point.
-/// \param light  The lamp.
-/// \param from   The lit point.
-/// \param point  The point of the lamp.
-/// \param uv     The coordinates of `point` in the picture.
+/// the lit point `from`. `uv` are the coordinates of the point in the picture.
 template <std::floating_point T>
 [[nodiscard]] T pdf_towards(const PictureLightT<T>& light, const Vec3T<T>& from,
                             const SurfacePointT<T>& point, const Vec2T<T>& uv) {
@@ -223,8 +214,8 @@ template <std::floating_point T>
                                  T(1) / pdf_of_point(light, radiance_at(light, uv)));
 }
 
-/// Samples the origin of a photon with the density pdf_of_point().
-/// \return The point. Its normal points to the side that shines.
+/// Samples the origin of a photon with the density pdf_of_point(). Its normal points to
+/// the side that shines.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const PictureLightT<T>& light,
                                               const Vec2T<T>& u, T /*time*/) {

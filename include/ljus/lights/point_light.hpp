@@ -37,9 +37,9 @@ template <std::floating_point T>
     return T(4) * std::numbers::pi_v<T> * light.intensity;
 }
 
-/// Samples the light for a shadow ray from a point.
-/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
-///         Nothing if the lit point is the light itself.
+/// Samples the light for a shadow ray. The weight is intensity over squared distance,
+/// and the pdf is 0.
+/// \return Nothing at the position of the light.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -48,7 +48,7 @@ sample_light(const PointLightT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                                 [&](const Vec3T<T>&) { return light.intensity; });
 }
 
-/// The point from which the light emits photons: its position.
+/// The position of the light.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const PointLightT<T>& light, const Vec2T<T>&,
                                       T) noexcept {

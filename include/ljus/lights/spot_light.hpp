@@ -52,11 +52,10 @@ void check(const SpotLightT<T>& light) {
     require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
             "spot light.inner_degrees", light.inner_degrees,
             "within [0, outer_degrees]");
-    (void)detail::unit_along("spot light.direction", light.direction);
+    require_direction("spot light.direction", light.direction);
 }
 
-/// Prepares a spot light for its scene: normalises the direction and computes 1 - cos
-/// of both angles. The light must have passed check().
+/// Prepares a spot light, which must have passed check(), for its scene.
 template <std::floating_point T>
 [[nodiscard]] SpotInSceneT<T> in_scene(const SpotLightT<T>& light, const SphereT<T>&) {
     const auto one_minus_cos = [](T degrees) { // by the half angle: no cancellation
@@ -64,7 +63,7 @@ template <std::floating_point T>
         return T(2) * sine * sine;
     };
     return {.position = light.position,
-            .direction = detail::unit_along("spot light.direction", light.direction),
+            .direction = detail::unit_along(light.direction),
             .intensity = light.intensity,
             .inner = one_minus_cos(light.inner_degrees),
             .outer = one_minus_cos(light.outer_degrees)};
@@ -91,9 +90,7 @@ template <std::floating_point T>
     return w < light.outer ? (light.outer - w) / (light.outer - light.inner) : T(0);
 }
 
-/// Samples a photon's angle to the axis. The density of an angle is proportional to the
-/// flux emitted at this angle.
-/// \param u  In [0, 1).
+/// Samples a photon's angle to the axis, in proportion to the flux at this angle.
 /// \return 1 - cos of the angle, within [0, light.outer].
 // [sample_spot]
 template <std::floating_point T>
@@ -107,9 +104,9 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Samples the light for a shadow ray from a point.
-/// \return The sample. Its weight is intensity over squared distance, its pdf 0.
-///         Nothing outside the cone.
+/// Samples the light for a shadow ray. The weight is intensity over squared distance,
+/// and the pdf is 0.
+/// \return Nothing outside the cone.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -119,7 +116,7 @@ sample_light(const SpotInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>&
     });
 }
 
-/// The point from which the light emits photons: its position.
+/// The position of the light.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> emission_point(const SpotInSceneT<T>& light, const Vec2T<T>&,
                                       T) noexcept {

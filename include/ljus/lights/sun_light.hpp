@@ -3,6 +3,8 @@
 /// \file ljus/lights/sun_light.hpp
 /// \brief Light from a single direction.
 
+#include <algorithm>
+
 #include "ljus/lights/light.hpp"
 
 namespace ljus {
@@ -38,30 +40,27 @@ struct SunInSceneT {
 template <std::floating_point T>
 void check(const SunLightT<T>& light) {
     require_radiance("sun light.irradiance", light.irradiance);
-    (void)detail::unit_along("sun light.direction", light.direction);
+    require_direction("sun light.direction", light.direction);
 }
 
-/// Prepares a sun for its scene. The sun must have passed check().
+/// Prepares a sun, which must have passed check(), for its scene.
 template <std::floating_point T>
 [[nodiscard]] SunInSceneT<T> in_scene(const SunLightT<T>& light,
                                       const SphereT<T>& around) {
-    return {.direction = detail::unit_along("sun light.direction", light.direction),
+    return {.direction = detail::unit_along(light.direction),
             .irradiance = light.irradiance,
             .around = around};
 }
 
-/// The flux into the sphere around the scene, in W: the irradiance times the area of
-/// the sphere's cross section.
+/// The flux into the sphere around the scene, in W.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> power(const SunInSceneT<T>& light) noexcept {
     return detail::disc_area(light.around.radius) * light.irradiance;
 }
 
-/// Samples the light for a shadow ray. The ray ends outside the scene, on the plane
-/// where photons start.
-/// \param light  The light.
-/// \param from   The lit point, within the sphere around the scene.
-/// \return The sample. Its weight is the irradiance, its pdf 0.
+/// Samples the light for a shadow ray from a point within the sphere around the scene.
+/// The ray ends outside the scene, on the plane where photons start. The weight is the
+/// irradiance, and the pdf is 0.
 template <std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>
 sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& /*u*/,
@@ -74,7 +73,7 @@ sample_light(const SunInSceneT<T>& light, const Vec3T<T>& from, const Vec2T<T>& 
                            .weight = light.irradiance};
 }
 
-/// The direction and the irradiance of the sun's photons. Both are constant.
+/// The direction and the irradiance of the sun's photons.
 template <std::floating_point T>
 [[nodiscard]] ArrivalT<T> sample_arrival(const SunInSceneT<T>& light,
                                          const Vec2T<T>&) noexcept {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/media/equi_angular.hpp
-/// \brief Equi-angular sampling: points of a ray, uniform in angle as seen from a
-/// light.
+/// \brief Equi-angular sampling of the points of a ray.
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +11,23 @@
 namespace ljus {
 
 /// \defgroup equi_angular Equi-angular sampling
-/// \brief Points of a ray with a density that cancels the inverse square of their
-/// distance from a lamp.
+/// \brief Points of a ray, uniform in angle as seen from a light. The density cancels
+/// the inverse square of their distance from the light.
 /// \{
 
-/// The angles at which a light sees the points of a ray \cite kulla2012.
+/// The angles, in radians, at which a light sees the points of a ray \cite kulla2012.
 template <std::floating_point T>
 struct EquiAngularT {
     SpanT<T> span{};  ///< The interval of t from which points are sampled.
     T nearest = T(0); ///< The t at which the ray's line is nearest to the light.
     T away = T(1);    ///< Distance of the light from the ray's line.
-    /// Angle from the nearest point to the start of the span as seen from the light, in
-    /// radians.
-    T first = T(0);
-    /// Angle from the start to the end of the span as seen from the light, in radians.
-    T opening = T(0);
+    T first = T(0);   ///< Angle from the nearest point to the start of the span.
+    T opening = T(0); ///< Angle from the start to the end of the span.
 };
 
-/// Prepares equi-angular sampling. A light on the ray would attract all points. The
-/// distance between light and ray therefore counts as at least a thousandth of the
-/// length of the span.
-/// \param ray    The ray, with a unit direction.
-/// \param span   The interval of t from which points are sampled; finite.
-/// \param light  Position of the light.
+/// Prepares equi-angular sampling of a finite span of a ray with a unit direction. A
+/// light on the ray would attract all points. The distance between light and ray
+/// therefore counts as at least a thousandth of the length of the span.
 // [equi angular]
 template <std::floating_point T>
 [[nodiscard]] EquiAngularT<T> equi_angular(const RayT<T>& ray, const SpanT<T>& span,
@@ -49,8 +42,6 @@ template <std::floating_point T>
 }
 
 /// Samples a point of the ray.
-/// \param angles  From equi_angular().
-/// \param u       In [0, 1).
 /// \return The parameter t of the point, within the span.
 template <std::floating_point T>
 [[nodiscard]] T sample_equi_angular(const EquiAngularT<T>& angles, T u) noexcept {

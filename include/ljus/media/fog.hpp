@@ -20,15 +20,13 @@ namespace ljus {
 
 namespace detail {
 
-/// The scalar type of a region, BoxT<T> or SphereT<T>. Only the return type of this
-/// function is used.
+/// Never called: its return type is the scalar type of a BoxT<T> or a SphereT<T>.
 template <template <std::floating_point> typename Region, std::floating_point T>
 T precision_of(const Region<T>&);
 
 } // namespace detail
 
-/// Fog in a sphere or in a box. The coefficients are the same everywhere in the region.
-/// A region that is larger than a room fills the room.
+/// Fog in a sphere or in a box. A region that is larger than a room fills the room.
 ///
 ///     Scene<Shapes<Quad>, Materials<Lambertian>, Lights<>, Media<Fog<Box>>> scene;
 ///     scene.add(Fog<Box>{.region{{-1, 0, -1}, {1, 2, 1}}, .scattering = Rgb{0.2f}});
@@ -49,7 +47,7 @@ struct Fog {
 /// \{
 
 /// The interval of t in which a ray is inside a sphere.
-/// \return Nothing if the ray misses the sphere or only touches it.
+/// \return As span_in().
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
                                               const RayT<T>& ray) noexcept {
@@ -67,7 +65,7 @@ template <std::floating_point T>
 }
 
 /// The interval of t in which a ray is inside a box.
-/// \return Nothing if the ray misses the box or only touches it.
+/// \return As span_in().
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
                                               const RayT<T>& ray) noexcept {
@@ -97,18 +95,14 @@ template <std::floating_point T>
     return box;
 }
 
-/// Checks a spherical region.
-/// \throws std::invalid_argument  unless the centre is finite, and the radius is finite
-///         and above 0.
+/// Checks a sphere as a region; throws as check().
 template <std::floating_point T>
 void check_region(const SphereT<T>& sphere) {
     require_finite("fog.region.center", sphere.center);
     require_positive("fog.region.radius", sphere.radius);
 }
 
-/// Checks a box as a region.
-/// \throws std::invalid_argument  if a number is not finite, or a component of `low` is
-///         not below that of `high`.
+/// Checks a box as a region; throws as check().
 template <std::floating_point T>
 void check_region(const BoxT<T>& box) {
     require_finite("fog.region.low", box.low);
@@ -142,10 +136,7 @@ template <typename Region>
 }
 
 /// The interval of t in which a ray is inside the fog.
-/// \param fog  The fog.
-/// \param ray  The ray. Its direction may have any length above 0.
-/// \return The interval, within [t_min, t_max] of the ray; nothing if the ray misses
-///         the fog.
+/// \return Nothing if the ray misses the fog or only touches it.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {

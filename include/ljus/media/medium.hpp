@@ -40,7 +40,7 @@ struct SpanT {
     T last = T(0);  ///< The largest t, above `first`.
 };
 
-/// A medium. Its functions are described at the top of this page, \ref medium.
+/// A medium; see \ref medium.
 template <typename M>
 concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
                           typename M::Scalar cosine,

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/media/phase_function.hpp
-/// \brief The phase function of Henyey and Greenstein: into which directions fog
-/// scatters light.
+/// \brief The phase function of Henyey and Greenstein.
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +23,8 @@ namespace ljus {
 /// The phase function of Henyey and Greenstein \cite henyey1941,
 /// \f[ \varrho(\theta) =
 ///     \frac{1 - g^2}{4\pi\,(1 + g^2 - 2 g \cos\theta)^{3/2}} . \f]
-/// \param g       Mean cosine of the angle theta by which light is turned, within
-///                [-0.99, 0.99]. 0 scatters equally in all directions; a positive g
-///                scatters mostly forwards.
+/// \param g       Mean cosine of theta, within [-0.99, 0.99]. 0 scatters equally in all
+///                directions; a positive g scatters mostly forwards.
 /// \param cosine  Cosine of theta, the angle between the directions of travel before
 ///                and after scattering.
 /// \return Per steradian. This is also the density of sample_henyey_greenstein().
@@ -41,13 +39,9 @@ template <std::floating_point T>
 }
 // [henyey greenstein]
 
-/// Samples the direction of travel after scattering, with the density
-/// henyey_greenstein(). The cumulative distribution is inverted in a form that also
-/// holds for g = 0.
-/// \param g       Mean cosine, as for henyey_greenstein().
-/// \param travel  Unit direction of travel before scattering.
-/// \param u       Point of the unit square.
-/// \return Unit direction of travel after scattering.
+/// Samples the unit direction of travel after scattering, with the density
+/// henyey_greenstein(). `travel` is the unit direction before scattering. The
+/// cumulative distribution is inverted in a form that also holds for g = 0.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_henyey_greenstein(T g, const Vec3T<T>& travel,
                                                 const Vec2T<T>& u) noexcept {
