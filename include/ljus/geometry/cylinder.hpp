@@ -41,8 +41,8 @@ template <std::floating_point T>
 
 /// Intersects a ray with a cylinder, from outside or inside.
 ///
-/// Projected along the axis, the ray is a line and the cylinder is a circle. The
-/// intersection is computed as in chord(), without cancellation.
+/// Projected along the axis, the cylinder is a circle. The projected ray meets this
+/// circle where it meets a sphere of the same radius; see chord().
 /// \tparam Compute  The precision of the arithmetic; by default double. In float,
 ///                  lengths must be between 1e-15 and 1e15.
 /// \return The distance t, and the coordinate v along the axis, in [0, 1]. Nothing for
@@ -59,16 +59,11 @@ intersect(const RayT<T>& ray, const CylinderT<T>& cylinder) noexcept {
     const Vec3T<C> ray_d{ray.direction};
     const Vec3T<C> ray_o = Vec3T<C>{ray.origin} - Vec3T<C>{cylinder.base};
     const Vec3T<C> d = across(ray_d), o = across(ray_o);
-    const C r{cylinder.radius};
-    const C dd = glm::dot(d, d), b = -glm::dot(o, d), inverse = C(1) / dd;
-    const Vec3T<C> nearest = o + (b * inverse) * d;
-    const C discriminant = r * r - glm::dot(nearest, nearest);
-    if (!(C(0) <= discriminant && r > C(0))) return std::nullopt; // NaN along the axis
-    const C q = b + std::copysign(std::sqrt(dd * discriminant), b);
-    const C large = q * inverse;
-    const C small = q != C(0) ? (glm::dot(o, o) - r * r) / q : C(0);
+    const auto roots = chord(RayT<C>{.origin = o, .direction = d},
+                             SphereT<C>{.radius = C(cylinder.radius)});
+    if (!roots) return std::nullopt;
     constexpr C max{std::numeric_limits<T>::max()};
-    for (const C t : {glm::min(small, large), glm::max(small, large)}) {
+    for (const C t : {roots->enter, roots->leave}) {
         const C along = glm::dot(ray_o + t * ray_d, a);
         if (C(ray.t_min) <= t && t <= C(ray.t_max) && t <= max && C(0) <= along &&
             along <= height)

@@ -3,6 +3,7 @@
 /// \file ljus/geometry/facet.hpp
 /// \brief Flat polygons and their form factors.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -30,12 +31,9 @@ struct Facet {
 namespace detail {
 
 /// A facet with its front and its back exchanged.
-[[nodiscard]] constexpr Facet turned(const Facet& facet) noexcept {
-    Facet other{.count = facet.count};
-    for (int i = 0; i < facet.count; ++i)
-        other.corners[static_cast<std::size_t>(i)] =
-            facet.corners[static_cast<std::size_t>(facet.count - 1 - i)];
-    return other;
+[[nodiscard]] constexpr Facet turned(Facet facet) noexcept {
+    std::reverse(facet.corners.begin(), facet.corners.begin() + facet.count);
+    return facet;
 }
 
 /// The normal of a facet times its area; 0 for fewer than three corners.

@@ -47,8 +47,8 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct ShapeHitT {
     T t = T(0);             ///< Distance, in units of the direction's length.
-    T u = T(0);             ///< Coordinate along the first edge.
-    T v = T(0);             ///< Coordinate along the second edge.
+    T u = T(0);             ///< Surface coordinate, e.g. along the first edge.
+    T v = T(0);             ///< Surface coordinate, e.g. along the second edge.
     std::uint32_t part = 0; ///< Index of a mesh's triangle; 0 for other shapes.
 };
 
@@ -88,8 +88,8 @@ struct Unprepared {};
 
 } // namespace detail
 
-/// Computes, once per ray, the data that an intersection test uses for every shape. All
-/// tests but Watertight need no such data.
+/// Computes, once per ray, the data that an intersection test uses for every shape.
+/// Only Watertight needs such data.
 template <typename Test = void, std::floating_point T>
 [[nodiscard]] constexpr detail::Unprepared prepare(const RayT<T>&) noexcept {
     return {};

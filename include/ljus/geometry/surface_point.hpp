@@ -193,7 +193,7 @@ enum class Spanned : std::uint8_t {
 /// \f[ t = \frac{Q \cdot E_2}{P \cdot E_1}, \quad u = \frac{P \cdot T}{P \cdot E_1},
 ///     \quad v = \frac{Q \cdot D}{P \cdot E_1} \f]
 ///
-/// A determinant \f$ P \cdot E_1 \f$ that is 0 or overflows is a miss.
+/// A determinant \f$ P \cdot E_1 \f$ that is 0 or overflows gives a miss.
 ///
 /// Two triangles round a hit on their common edge differently. If the arithmetic is
 /// wider than the data, each shape therefore has a border as wide as this rounding

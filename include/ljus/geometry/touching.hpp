@@ -48,24 +48,23 @@ box_of(const SurfacePiece& piece) noexcept {
     return {box.low - piece.radius, box.high + piece.radius};
 }
 
-/// The least and the greatest height of a piece above a plane.
+/// The least and the greatest height of a facet's corners above a plane.
 [[nodiscard, gnu::cold]] inline std::array<double, 2>
-heights_of(const SurfacePiece& piece, const glm::dvec3& point,
+heights_of(const Facet& facet, const glm::dvec3& point,
            const glm::dvec3& normal) noexcept {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int i = 0; i < piece.facet.count; ++i) {
-        const double height =
-            glm::dot(normal, piece.facet.corners[std::size_t(i)] - point);
+    for (int i = 0; i < facet.count; ++i) {
+        const double height = glm::dot(normal, facet.corners[std::size_t(i)] - point);
         low = std::min(low, height);
         high = std::max(high, height);
     }
-    return {low - piece.radius, high + piece.radius};
+    return {low, high};
 }
 
 /// Whether a line along an edge of a polygon separates the polygon from another polygon
 /// in the same plane. Polygons that only share an edge are separated.
-[[nodiscard, gnu::cold]] inline bool
-separated(const Facet& facet, const SurfacePiece& other, double distance) noexcept {
+[[nodiscard, gnu::cold]] inline bool separated(const Facet& facet, const Facet& other,
+                                               double distance) noexcept {
     const glm::dvec3 normal = area_vector(facet);
     for (int i = 0; i < facet.count; ++i) {
         const glm::dvec3& a = facet.corners[std::size_t(i)];
@@ -124,12 +123,14 @@ shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3
                    double distance) noexcept {
     const glm::dvec3 a = area_vector(one.facet), b = area_vector(other.facet);
     if (glm::length(a) == 0 || !slides(a, way)) return std::nullopt;
-    const auto [low, high] = heights_of(other, one.facet.corners[0], glm::normalize(a));
+    const auto [low, high] =
+        heights_of(other.facet, one.facet.corners[0], glm::normalize(a));
     if (!(std::abs(low) <= distance && std::abs(high) <= distance) ||
         glm::dot(a, b) == 0)
         return std::nullopt;
     if (way != glm::dvec3(0)) other.facet = around_way(other.facet, way);
-    if (separated(one.facet, other, distance) || separated(other.facet, one, distance))
+    if (separated(one.facet, other.facet, distance) ||
+        separated(other.facet, one.facet, distance))
         return std::nullopt;
     return SharedPlace{.box = box_of(other),
                        .over_area = true,
@@ -184,20 +185,12 @@ shared_by_round(const SurfacePiece& one, const SurfacePiece& other,
     const bool at_high = std::abs(high - one.radius) <= distance;
     const bool outside = std::abs(low - one.radius) <= distance;
     if (!at_low && !at_high && !outside) return std::nullopt;
-    // The interval along the axis that a piece covers at any time.
-    const auto interval = [&](const SurfacePiece& piece, const glm::dvec3& moved) {
-        std::array<double, 2> ends{std::numeric_limits<double>::infinity(),
-                                   -std::numeric_limits<double>::infinity()};
-        for (int i = 0; i < piece.facet.count; ++i)
-            for (const glm::dvec3& by : {glm::dvec3(0), moved}) {
-                const double at = glm::dot(
-                    piece.facet.corners[std::size_t(i)] + by - one.facet.corners[0], u);
-                ends = {std::min(ends[0], at), std::max(ends[1], at)};
-            }
-        return ends;
-    };
-    const auto mine = interval(one, glm::dvec3(0)), its = interval(other, way);
-    const double first = std::max(mine[0], its[0]), last = std::min(mine[1], its[1]);
+    // The interval along the axis that both pieces cover, at any time.
+    const auto mine = heights_of(one.facet, one.facet.corners[0], u);
+    const auto its = heights_of(other.facet, one.facet.corners[0], u);
+    const double moved = glm::dot(way, u);
+    const double first = std::max(mine[0], its[0] + std::min(moved, 0.0));
+    const double last = std::min(mine[1], its[1] + std::max(moved, 0.0));
     // They meet only end to end, or not at all.
     if (!(last - first > (tubes ? distance : -distance))) return std::nullopt;
     SharedPlace place{.box = box_of(other),

@@ -36,8 +36,8 @@ using Triangle = TriangleT<float>; ///< TriangleT in float.
 
 namespace detail {
 
-/// The normal of a triangle times twice its area, in double: in float, the normal of a
-/// thin triangle would be inaccurate.
+/// The normal of a triangle times twice its area. It is in double, because in float the
+/// normal of a thin triangle would be inaccurate.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<WideT<T>> cross_of_edges(const TriangleT<T>& triangle) noexcept {
     const Vec3T<WideT<T>> v1{triangle.v1};

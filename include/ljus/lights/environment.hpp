@@ -63,8 +63,7 @@ struct EnvironmentInSceneT {
 
 namespace detail {
 
-/// 1 - cos of an angle, without cancellation.
-/// \param fraction  The angle over pi.
+/// 1 - cos of an angle, without cancellation. `fraction` is the angle over pi.
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cos_of(T fraction) noexcept {
     const T sine = std::sin(fraction * (std::numbers::pi_v<T> / T(2)));

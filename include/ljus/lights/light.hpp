@@ -55,7 +55,7 @@ struct LightSampleT {
     SurfacePointT<T> point{};
     Vec3T<T> wi{T(0)}; ///< Unit direction to the light.
     /// Radiance over pdf for a light that paths can hit. Intensity over squared
-    /// distance for a point or spot light. Irradiance for a sun.
+    /// distance for a light without extent. Irradiance for a sun.
     RgbT<T> weight{T(0)};
     T pdf = T(0); ///< Density of `wi` per steradian; 0 if no path can hit the light.
 };
@@ -112,7 +112,7 @@ template <std::floating_point T, typename Intensity>
 } // namespace detail
 
 /// Prepares a light for its scene. A light that needs no preparation is returned as it
-/// is. A sun has its own in_scene(), which adds the sphere around the scene.
+/// is.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;
