@@ -93,17 +93,12 @@ heights_of(const Facet& facet, const glm::dvec3& point,
                                                  const glm::dvec3& way) noexcept {
     const glm::dvec3 normal = glm::normalize(area_vector(facet));
     const glm::dvec3 u = glm::normalize(way), v = glm::cross(normal, u);
-    BoxT<double> box; // of the corners, along u and v
-    for (int i = 0; i < facet.count; ++i) {
-        const glm::dvec3 p = facet.corners[std::size_t(i)] - facet.corners[0];
-        for (const glm::dvec3& at : {p, p + way})
-            box = box_union(box, glm::dvec3(glm::dot(at, u), glm::dot(at, v), 0));
-    }
-    const auto corner = [&](double x, double y) {
-        return facet.corners[0] + x * u + y * v;
-    };
-    return {.corners{corner(box.low.x, box.low.y), corner(box.high.x, box.low.y),
-                     corner(box.high.x, box.high.y), corner(box.low.x, box.high.y)},
+    const auto [left, right] = heights_of(facet, facet.corners[0], u);
+    const auto [bottom, top] = heights_of(facet, facet.corners[0], v);
+    const glm::dvec3 at_left = facet.corners[0] + left * u;
+    const glm::dvec3 at_right = facet.corners[0] + right * u + way;
+    return {.corners{at_left + bottom * v, at_right + bottom * v, at_right + top * v,
+                     at_left + top * v},
             .count = 4};
 }
 

@@ -110,7 +110,7 @@ template <typename S, std::floating_point T>
     return sample;
 }
 
-/// Samples the origin of a photon, uniformly over the area. Its normal points to the
+/// Samples the origin of a photon, uniformly over the area. The normal points to the
 /// emitting side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,

@@ -226,7 +226,7 @@ template <std::floating_point T>
     return {-wi, radiance / pdf};
 }
 
-/// The radiance that a ray of a unit direction meets when it leaves the scene, in
+/// The radiance that a ray with a unit direction meets when it leaves the scene, in
 /// W/(m^2 sr): that of a pixel, without interpolation.
 // [escaped_radiance]
 template <std::floating_point T>

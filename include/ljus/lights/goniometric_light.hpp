@@ -18,9 +18,9 @@ namespace ljus {
 /// \brief Beyond the report: lamps with measured intensities. Chapter: \ref ch_lamps.
 ///
 /// A goniophotometer turns a lamp about two axes and measures its intensity in each
-/// position \cite lm63. The two angles are coordinates on the sphere of directions,
-/// whose pole the type of the photometer determines. `direction` and `reference` are
-/// those of a GoniometricLightT:
+/// position \cite lm63. The two angles are coordinates on the sphere of directions. The
+/// type of the photometer determines the pole of these coordinates. `direction` and
+/// `reference` are members of GoniometricLightT:
 ///
 /// | type | pole                  | polar angle     | azimuth                        |
 /// |------|-----------------------|-----------------|--------------------------------|
@@ -53,7 +53,7 @@ struct IntensityTable {
     std::vector<double> candela{};
 };
 
-/// A light without extent whose intensity is given by a table, as of load_ies().
+/// A light without extent whose intensity is given by a table, e.g. of load_ies().
 ///
 ///     scene.add(GoniometricLight{.table = load_ies("spot.ies").table,
 ///                                .position{0, 2.4f, 0}});

@@ -214,7 +214,7 @@ template <std::floating_point T>
                                  T(1) / pdf_of_point(light, radiance_at(light, uv)));
 }
 
-/// Samples the origin of a photon with the density pdf_of_point(). Its normal points to
+/// Samples the origin of a photon with the density pdf_of_point(). The normal points to
 /// the side that shines.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const PictureLightT<T>& light,
