@@ -148,7 +148,7 @@ template <std::floating_point T>
             DiscT<T>{cylinder.base + cylinder.axis, cylinder.axis, cylinder.radius}};
 }
 
-/// A sphere around a cylinder, through the circles at its two ends.
+/// The smallest sphere around a cylinder.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const CylinderT<T>& cylinder) noexcept {
     const Vec3T<T> half = cylinder.axis / T(2);

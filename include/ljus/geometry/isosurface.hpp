@@ -50,11 +50,8 @@ struct LipschitzLine {
     double enter = 0;   ///< The t at which the ray enters the bounds.
     double leave = 0;   ///< The t at which the ray leaves the bounds.
 
-    /// The field at the point of the ray with the given t.
     [[nodiscard]] double value(double t) const { return field.value(point_at(ray, t)); }
-    /// A bound on the slope |df/dt| of the field f along the ray.
     [[nodiscard]] double steepest() const { return field.lipschitz() * length; }
-    /// An interval that contains all values of the field for t in [a, b].
     [[nodiscard]] IntervalT<double> range(double a, double b) const {
         const double middle = value(a + (b - a) / 2), reach = steepest() * (b - a) / 2;
         return {middle - reach, middle + reach};

@@ -85,11 +85,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// The picture of a sky with a gradient, for an EnvironmentLightT. Above the horizon
-/// the radiance is linear in the sine of the elevation. Below the horizon it is that of
-/// the ground.
-/// \param horizon  Radiance at the horizon, in W/(m^2 sr).
-/// \param zenith   Radiance straight up, in W/(m^2 sr).
-/// \param ground   Radiance below the horizon, in W/(m^2 sr).
+/// the radiance, in W/(m^2 sr), is linear in the sine of the elevation. Below the
+/// horizon it is that of the ground.
 /// \return One column of 256 pixels. Each has the mean radiance of its directions.
 template <std::floating_point T>
 [[nodiscard]] ImageT<T> gradient_sky(const RgbT<T>& horizon, const RgbT<T>& zenith,
