@@ -11,8 +11,7 @@ namespace ljus {
 /// \brief Materials with holes, for example a leaf on a square. Chapter:
 /// \ref ch_textures.
 ///
-/// The search for the nearest hit skips a hit in a hole, for rays and photons alike
-/// \cite pharr2023.
+/// Rays and photons skip a hit in a hole \cite pharr2023.
 /// \{
 
 /// The holes of a CutOut material, given by a texture.
@@ -54,8 +53,7 @@ requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
 }
 
 /// Checks the mask and the cutoff.
-/// \throws std::invalid_argument  if a member is not valid; the message names the
-///         member.
+/// \throws std::invalid_argument  with the name of the member that is not valid.
 template <typename Texture>
 void check(const Holes<Texture>& holes) {
     check(holes.mask);

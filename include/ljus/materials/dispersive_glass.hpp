@@ -15,8 +15,8 @@ namespace ljus {
 /// \addtogroup dispersion
 /// \{
 
-/// A law that gives the index of refraction at a wavelength in nanometres, by
-/// `refractive_index(law, nm)`. SellmeierT and CauchyT are such laws.
+/// A law that gives the index of refraction at a wavelength in nanometres, like
+/// SellmeierT and CauchyT.
 template <typename Law, typename T>
 concept DispersionLaw = requires(const Law& law, T nm) {
     { refractive_index(law, nm) } -> std::same_as<T>;
@@ -39,10 +39,7 @@ struct DispersiveGlassT {
 /// DispersiveGlassT in float. The default law gives an index of 1 at every wavelength.
 using DispersiveGlass = DispersiveGlassT<float>;
 
-/// The glass at one wavelength. Renderers call this function with the wavelength of a
-/// path, and the photon pass with that of a photon.
-/// \param glass  The glass.
-/// \param nm     Wavelength in nm, in [360, 830].
+/// The glass at the wavelength `nm`, in nanometres, in [360, 830].
 // [at_wavelength]
 template <std::floating_point T, typename Law>
 [[nodiscard]] GlassT<T> at_wavelength(const DispersiveGlassT<T, Law>& glass,

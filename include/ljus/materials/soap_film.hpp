@@ -67,11 +67,8 @@ template <std::floating_point T>
                                                      : detail::max_film_thickness<T>;
 }
 
-/// The reflectance of a film.
-/// \param film       The film.
-/// \param cos_theta  Cosine of the angle between ray and normal, of either sign.
-/// \param thickness  In nm.
-/// \return For each channel, in [0, 1].
+/// The reflectance of a film of a thickness in nm, for each channel, in [0, 1].
+/// `cos_theta` is the cosine between ray and normal, of either sign.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
                                   T thickness) noexcept {
@@ -101,18 +98,16 @@ struct FilmPointT {
 template <std::floating_point T>
 void check(const FilmPointT<T>&) noexcept {}
 
-/// The material of a film at a point; see material_at().
-/// \param film      The film; must outlive the result.
-/// \param position  The point.
+/// The material of a film at a point; see material_at(). The film must outlive the
+/// result.
 template <std::floating_point T>
 [[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                      const Vec2T<T>& /*uv*/) noexcept {
     return {film, thickness_at(film, position)};
 }
 
-/// The transmittance of a film at a point. A material with this function is a thin
-/// sheet.
-/// \return 1 minus the reflectance, for each channel.
+/// The transmittance of a film at a point, in each channel. A material with this
+/// function is a thin sheet.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                    const Vec3T<T>& wo) noexcept {

@@ -27,13 +27,13 @@ namespace ljus {
 // [spectrum color]
 template <std::floating_point T, typename Spectrum>
 [[nodiscard]] RgbT<T> spectrum_color(Spectrum spectrum, T step = T(1)) {
-    const auto count = static_cast<long long>(
-        std::ceil((detail::visible<T>[1] - detail::visible<T>[0]) / step));
-    const T h = (detail::visible<T>[1] - detail::visible<T>[0]) / static_cast<T>(count);
+    const auto [first, last] = detail::visible<T>;
+    const auto count = static_cast<long long>(std::ceil((last - first) / step));
+    const T h = (last - first) / static_cast<T>(count);
     Vec3T<T> sum{T(0)};
     Vec3T<T> white{T(0)};
     for (long long i = 0; i < count; ++i) {
-        const T wavelength = detail::visible<T>[0] + (static_cast<T>(i) + T(0.5)) * h;
+        const T wavelength = first + (static_cast<T>(i) + T(0.5)) * h;
         const Vec3T<T> eye = cie_observer(wavelength);
         sum += eye * spectrum(wavelength);
         white += eye;
@@ -42,8 +42,8 @@ template <std::floating_point T, typename Spectrum>
 }
 // [spectrum color]
 
-/// The colour of a film by integration over the spectrum. It is the reference for the
-/// other functions. The samples are so close that they resolve the fringes of the film.
+/// The colour of a film by integration over the spectrum, as a reference for the other
+/// functions. The samples resolve the fringes of the film.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, >= 1.
 /// \param thickness  In nm, >= 0.
@@ -64,15 +64,8 @@ template <std::floating_point T>
         std::min(T(1), finest));
 }
 
-namespace detail {
-
-/// The dominant wavelengths of a screen's red, green and blue, in nm.
-template <std::floating_point T>
-inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
-
-} // namespace detail
-
-/// The colour of a film by three wavelengths, one per channel.
+/// The colour of a film by three wavelengths: the dominant ones of a screen's red,
+/// green and blue.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index of the film, > 0.
 /// \param thickness  In nm, >= 0.
@@ -84,19 +77,17 @@ template <std::floating_point T>
     const auto at = [&](T wavelength) {
         return thin_film(cos_theta, index, thickness, wavelength).reflected;
     };
-    const Vec3T<T>& w = detail::screen_wavelengths<T>;
-    return {at(w.x), at(w.y), at(w.z)};
+    return {at(T(611.4)), at(T(549.1)), at(T(464.3))};
 }
 
 namespace detail {
 
 /// The mean of cos(2 pi delay / wavelength) over all wavelengths, weighted by the eye's
 /// response. It is the Fourier transform of the response, which is fitted by four
-/// Gaussians over the wave number.
+/// Gaussians over the wave number \cite belcour2017.
 /// \param delay  Difference of the optical paths of two waves, in nm.
 /// \return The mean as linear sRGB: 1 for no delay, approaching 0 for a large one.
 /// \cost Four cosines and four exponentials.
-/// \cite belcour2017
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> visible_swing(T delay) noexcept {
     struct Gaussian {

@@ -15,7 +15,7 @@ namespace ljus {
 /// \{
 
 /// A table of the colours of films of one index n, over the angle of the ray and the
-/// optical path n d cos(theta_t). d is the thickness, and theta_t is the angle inside
+/// optical path n d cos(theta_t), where d is the thickness and theta_t the angle inside
 /// the film. The columns are evenly spaced in the square root of the cosine outside the
 /// film, because the reflectance is steep near grazing incidence. The rows are evenly
 /// spaced in the square root of the optical path, because fringes fade with longer
@@ -80,10 +80,8 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 
 } // namespace detail
 
-/// Makes the table for one index. It is computed in double.
-/// \param index  The index of the films, in [1, 1000].
-/// \param size   The resolution. The default has 42 000 colours, half a megabyte in
-///               float.
+/// Makes the table for one index, in [1, 1000]. It is computed in double. The default
+/// size has 42 000 colours, half a megabyte in float.
 /// \throws std::invalid_argument  if the index or a size is out of range.
 /// \cost With the default size, it takes 10 million samples in about 0.1 s.
 template <std::floating_point T = float>
@@ -133,6 +131,8 @@ template <std::floating_point T = float>
 /// the mean over all phases.
 /// \param table      The table.
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
+/// \param thickness  In nm, >= 0.
+/// \return The reflectance as linear sRGB, each channel in [0, 1].
 /// \param thickness  In nm, >= 0.
 /// \return The reflectance as linear sRGB, each channel in [0, 1].
 /// \cost Three square roots, a division and four table entries.

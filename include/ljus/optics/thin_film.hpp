@@ -13,8 +13,8 @@ namespace ljus {
 /// \defgroup thin_film Thin films
 /// \brief The soap bubble of figure 4.
 ///
-/// A film has two surfaces, which both reflect light. The wave from the second surface
-/// is delayed relative to that from the first surface, and the two waves interfere.
+/// Both surfaces of a film reflect light. The wave from the second surface is delayed,
+/// and the two waves interfere.
 /// \{
 
 namespace detail {
@@ -28,8 +28,8 @@ struct FilmSharesT {
 } // namespace detail
 
 /// The square of \f$ n \cos\theta_t \f$, where n is the index of the film and theta_t
-/// the angle *inside* the film. It is computed without cancellation as
-/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, where theta is the angle outside.
+/// the angle *inside* the film. It is computed without cancellation from the angle
+/// theta outside, as \f$ \cos^2\theta + (n - 1)(n + 1) \f$.
 /// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
@@ -40,7 +40,6 @@ template <std::floating_point T>
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
 /// \param index      Index n of the film, > 0.
 /// \param beat       \f$ q = (n^2 - 1) \sin\varphi / g \f$; see thin_film().
-/// \return R and T.
 /// \cost Four divisions.
 // [film_shares]
 template <std::floating_point T>
@@ -104,10 +103,11 @@ template <std::floating_point T>
 }
 // [thin_film]
 
-/// The mean of a film's reflectance over all phases. It is the reflectance of a film
-/// too thick for interference. For each polarisation it is
-/// \f$ 1 - 1/\sqrt{1 + F} = 2R_1/(1 + R_1) \f$, with F and R_1 as for thin_film().
+/// The mean of a film's reflectance over all phases, in [0, 1]: the reflectance of a
+/// film too thick for interference. For each polarisation it is \f$ 1 - 1/\sqrt{1 + F}
+/// = 2R_1/(1 + R_1) \f$, with F and R_1 as for thin_film().
 /// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
+/// \param index      Index of the film, >= 1.
 /// \param index      Index of the film, >= 1.
 /// \return The mean, in [0, 1].
 template <std::floating_point T>
