@@ -169,9 +169,8 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
 /// Makes an error map of two pictures of the same size tile by tile, so that
 /// intermediate results need memory for one tile only. Each tile includes a margin of
 /// eye_radius() pixels. The map is therefore the same as without tiles.
-/// make(image, reference) returns the error map of a tile of both pictures.
-/// \throws std::invalid_argument  if the sizes differ, or if ppd is not within [1,
-///         1000].
+/// `make(image, reference)` returns the error map of a tile of both pictures.
+/// \throws std::invalid_argument  if the sizes differ, or ppd is not within [1, 1000].
 template <std::floating_point T, std::floating_point U, typename Make>
 [[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,
                                           const ImageT<U>& reference, double ppd,
@@ -315,15 +314,12 @@ template <std::floating_point T, std::floating_point U>
 } // namespace detail
 
 /// FLIP of each pixel: how visible the change of the pixel is to a viewer who flips
-/// between two pictures. Before colours are compared, detail that is too fine for the
-/// eye is blurred. Where only one picture has an edge or a point, the colour difference
-/// is raised to a power below 1, which makes it larger.
-/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// between two pictures of the same size. They are linear sRGB, clamped to [0, 1] as on
+/// a screen. `ppd` is from pixels_per_degree(). Before colours are compared, detail
+/// that is too fine for the eye is blurred. Where only one picture has an edge or a
+/// point, the colour difference is raised to a power below 1, which makes it larger.
 /// \return A grey image in [0, 1]; 0 where no difference is visible.
-/// \throws std::invalid_argument  if the sizes differ, or if ppd is not within [1,
-///         1000].
+/// \throws std::invalid_argument  if the sizes differ, or ppd is not within [1, 1000].
 /// \cost Proportional to the number of pixels times ppd.
 /// \cite andersson2020
 template <std::floating_point T, std::floating_point U>
@@ -341,9 +337,6 @@ template <std::floating_point T, std::floating_point U>
 /// *Trap*: FLIP is valid for pictures shown alternately in the same position on a
 /// screen, for one viewing distance and one exposure. The FLIP values of several errors
 /// cannot be added.
-/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A number in [0, 1]; exchanging the two pictures does not change it.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>

@@ -63,11 +63,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures.
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size. It alone determines the
-///                   exposures.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures, which the
+/// reference alone determines. The pictures are linear sRGB of any brightness.
 /// \return A grey image in [0, 1].
 /// \throws std::invalid_argument  as flip_map().
 /// \cost That of flip_map(), times about the number of stops between the brightest and
@@ -103,10 +100,6 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size. It alone determines the
-///                   exposures.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A number in [0, 1]. It stays the same if both pictures are scaled by one
 ///         number.
 /// \throws std::invalid_argument  as flip_map().

@@ -20,16 +20,15 @@ namespace ljus {
 /// each (u, v).
 ///
 /// A texture is a type with the functions `color_at(texture, place, uv)` and
-/// `check(texture)`. A map is a type with the functions `map_coordinates(map, place,
-/// uv)` and `check(map)`. `place` is the point in scene units, and `uv` are the
-/// coordinates of the point on its own shape, see texture_coordinates(). A type
-/// receives `uv` only if it declares `static constexpr bool uses_uv = true`; otherwise
-/// `uv` is (0, 0). Both textures here repeat with period 1 in u and in v, unless a
-/// picture has another PictureWrap.
+/// `check(texture)`. A map is a type with the functions
+/// `map_coordinates(map, place, uv)` and `check(map)`. `place` is the point in scene
+/// units, and `uv` are the coordinates of the point on its own shape, see
+/// texture_coordinates(). A type receives `uv` only if it declares
+/// `static constexpr bool uses_uv = true`; otherwise `uv` is (0, 0). Both textures here
+/// repeat with period 1 in u and in v, unless a picture has another PictureWrap.
 /// \{
 
-/// Projects each point of a surface orthogonally onto a plane. The point `origin` of
-/// the plane has (u, v) = (0, 0), and `origin + edge_u` has (1, 0).
+/// Projects each point of a surface orthogonally onto a plane.
 template <std::floating_point T>
 struct PlaneMapT {
     Vec3T<T> origin{T(0)}; ///< The point with (u, v) = (0, 0).
@@ -191,10 +190,8 @@ struct PictureTextureT {
     static constexpr bool uses_uv = UsesUv<Map>;
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
-    /// What the picture shows beyond its border.
-    PictureWrap wrap = PictureWrap::repeat;
-    /// How a colour between pixel centres is found.
-    PictureFilter filter = PictureFilter::bilinear;
+    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.
+    PictureFilter filter = PictureFilter::bilinear; ///< Between pixel centres.
 };
 using PictureTexture = PictureTextureT<float>; ///< A picture on a plane, in float.
 /// A picture in the coordinates of the shape, in float.

@@ -60,7 +60,7 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
 /// so that a roughness of 0 needs no special case.
 /// \param wo, wi  Unit vectors on the same side.
 /// \return At least 0.
-/// \cost Two arc tangents, four square roots, eight divisions.
+/// \cost Two arc tangents, two square roots, nine divisions.
 // [eon]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> eon_weight(const EonT<T>& surface, const Vec3T<T>& wo,

@@ -62,7 +62,8 @@ struct GlassBoundaryT {
 };
 
 /// Divides the light for the outgoing direction `wo`.
-/// \cost Three square roots and three divisions; fewer in total internal reflection.
+/// \cost Three square roots and six to eight divisions; fewer in total internal
+///       reflection.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,
@@ -80,7 +81,7 @@ template <std::floating_point T>
 
 /// Chooses reflection with probability F, Fresnel's reflectance, and otherwise
 /// refraction. The weight is 1, or BsdfSampleT::eta_scale for refraction.
-/// \cost Three square roots and three divisions.
+/// \cost That of refract() and fresnel().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -121,7 +121,7 @@ template <std::floating_point T, typename F>
 /// fraction of light that no other facet blocks.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
 ///         into the surface.
-/// \cost One sine, one cosine, eight square roots.
+/// \cost One sine, one cosine, nine square roots.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,

@@ -224,8 +224,6 @@ concept Refractive = requires(const M& m) {
 
 /// A copy of `m` for a body that touches a body of index `outside` instead of air. The
 /// index of the copy is relative to `outside`.
-/// \param m        The material.
-/// \param outside  Index of refraction of the other body.
 template <Refractive M>
 [[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
     m.index /= outside;
@@ -287,8 +285,8 @@ concept ShowsPicture = requires(const M& m) {
 
 /// The material at a point: `at_point(m, position, uv)` if the material provides that
 /// function, otherwise m itself. m must outlive the result. `uv` is from
-/// texture_coordinates(), and is (0, 0) unless the material declares `static constexpr
-/// bool uses_uv = true`.
+/// texture_coordinates(), and is (0, 0) unless the material declares
+/// `static constexpr bool uses_uv = true`.
 template <typename M>
 [[nodiscard]] constexpr decltype(auto)
 material_at(const M& m, const Vec3T<typename M::Scalar>& position,

@@ -77,7 +77,7 @@ struct RoughRatiosT {
 /// to the normal, beta the smaller, and phi the angle between the azimuths. The code
 /// gives C_1, C_2 and C_3. For grazing directions from opposite sides the terms cancel:
 /// `single` then has no correct digits and may be negative.
-/// \cost Two arc tangents, nine divisions.
+/// \cost Two arc tangents, two square roots, seven divisions.
 // [full]
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_full(T sigma, const Vec3T<T>& wo,

@@ -143,7 +143,7 @@ template <std::floating_point T>
 /// Refraction is not symmetric in the two directions:
 /// \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
 /// \return f in 1/sr, without the cosine; 0 at grazing angles where f would overflow.
-/// \cost Four square roots, including those of fresnel() and of normalisation.
+/// \cost Four square roots for refraction, five for reflection.
 /// \cite walter2007
 // [rough glass]
 template <std::floating_point T>
@@ -167,7 +167,7 @@ template <std::floating_point T>
 /// BsdfSampleT::eta_scale.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
 ///         points into the surface, or a refracted direction points out of it.
-/// \cost One sine, one cosine, a dozen square roots.
+/// \cost One sine, one cosine, ten square roots.
 // [sample rough glass]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -139,8 +139,8 @@ template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,
             "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
-    detail::require_index("soap_film.index", film.index);
-    require(film.index >= T(1), "soap_film.index", film.index, "at least 1");
+    require(film.index >= T(1) && film.index <= T(1000), "soap_film.index", film.index,
+            "within [1, 1000]");
     require(std::isfinite(film.scale) && film.scale >= T(0), "soap_film.scale",
             film.scale, "finite and at least 0");
     require_finite("soap_film.level", film.level);

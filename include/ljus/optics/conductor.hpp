@@ -55,7 +55,7 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
 /// \param k          Imaginary part of the index, >= 0. If it is 0, R is
 ///                   fresnel(cos_theta, 1, n).
 /// \return R in [0, 1].
-/// \cost Three square roots (one of them a hypot) and three divisions.
+/// \cost Two square roots (one of them a hypot) and three divisions.
 /// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}
 // [fresnel_conductor]
 template <std::floating_point T>

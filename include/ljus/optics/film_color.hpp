@@ -15,6 +15,10 @@ namespace ljus {
 /// \defgroup film_color Colours of thin films
 /// \brief The reflectance of a film varies quickly with the wavelength and must be
 /// integrated over the spectrum.
+///
+/// The colours are reflectances as linear sRGB. `cos_theta` is the cosine between ray
+/// and normal outside the film, in [0, 1], `index` the index of the film, at least 1,
+/// and `thickness` is in nm, at least 0.
 /// \{
 
 /// The colour of a spectrum.
@@ -44,12 +48,8 @@ template <std::floating_point T, typename Spectrum>
 
 /// The colour of a film by integration over the spectrum, as a reference for the other
 /// functions. The samples resolve the fringes of the film.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, >= 1.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
-/// \cost 470 wavelengths for a film of 400 nm, and 10 000 times as many for a film of 1
-///       mm.
+/// \return It may be outside the range of a screen.
+/// \cost 470 wavelengths for a film of 400 nm, and 120 000 for a film of 1 mm.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
@@ -66,11 +66,8 @@ template <std::floating_point T>
 
 /// The colour of a film by three wavelengths: the dominant ones of a screen's red,
 /// green and blue.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, > 0.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance in [0, 1] for each channel. The fringes of a thick film do
-///         not fade, although real fringes do.
+/// \return Each channel in [0, 1]. The fringes of a thick film do not fade, although
+///         real fringes do.
 /// \cost Three calls of thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
@@ -121,10 +118,7 @@ template <std::floating_point T>
 /// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
 /// defines. Each cosine is replaced by its mean over the spectrum, visible_swing(). The
 /// sum ends at k = 3.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, >= 1.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
+/// \return It may be outside the range of a screen.
 /// \cost Three calls of visible_swing().
 /// \cite belcour2017
 // [preintegrated]
@@ -143,7 +137,7 @@ template <std::floating_point T>
                               detail::visible_swing(T(3) * delay)};
     RgbT<T> sum{T(0)};
     for (const T r : one_surface) {
-        // The transmitted light.
+        // The sum over k.
         const RgbT<T> waves = r * (swings[0] + r * (swings[1] + r * swings[2]));
         sum += (r - (T(1) - r) * waves) / (T(1) + r);
     }

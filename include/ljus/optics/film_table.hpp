@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "ljus/math/require.hpp"
 #include "ljus/optics/film_color.hpp"
-#include "ljus/optics/refraction.hpp"
 
 namespace ljus {
 
@@ -87,8 +87,8 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index,
                                             const detail::FilmTableSize& size = {}) {
-    detail::require_index("the index of a film", index);
-    require(index >= T(1), "the index of a film", index, "at least 1");
+    require(index >= T(1) && index <= T(1000), "the index of a film", index,
+            "within [1, 1000]");
     require_at_least("cosines", size.cosines, 2);
     require_at_least("paths", size.paths, 2);
     require_positive("longest", size.longest);
@@ -127,14 +127,8 @@ template <std::floating_point T = float>
     return table;
 }
 
-/// The colour of a film, interpolated in a table. Beyond the longest optical path it is
-/// the mean over all phases.
-/// \param table      The table.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB, each channel in [0, 1].
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB, each channel in [0, 1].
+/// The colour of a film, interpolated in a table, as linear sRGB, each channel in
+/// [0, 1]. Beyond the longest optical path it is the mean over all phases.
 /// \cost Three square roots, a division and four table entries.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,

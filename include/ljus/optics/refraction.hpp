@@ -101,7 +101,6 @@ namespace detail {
 /// Requires an index of refraction within [0.001, 1000]. `what` is its name.
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {
-    require_positive(what, index);
     require(index >= T(1e-3) && index <= T(1e3), what, index, "within [0.001, 1000]");
 }
 

@@ -145,7 +145,7 @@ make_form_factors(const W& world, const Patches& all,
         }
     if (settings.closed)
         require(detail::close_rows(factors), "closed", 1LL,
-                "false, because a patch of the room sees no other");
+                "false: a patch sees no other, or the row sums do not converge");
     return factors;
 }
 

@@ -111,10 +111,9 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,
                                  int across) {
-    require(around >= 3 && around <= 10000 && across >= 3 && across <= 10000,
-            "the smaller number of segments",
-            static_cast<long long>(around < across ? around : across),
-            "within [3, 10000]");
+    for (const long long segments : {around, across})
+        require(segments >= 3 && segments <= 10000, "the number of segments", segments,
+                "within [3, 10000]");
     MeshDataT<T> data;
     const auto number = [&](int i, int k) {
         return static_cast<std::uint32_t>((i % around) * across + k % across);
