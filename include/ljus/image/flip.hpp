@@ -209,6 +209,7 @@ template <std::floating_point T, std::floating_point U, typename Make>
     for (int channel = 0; channel < 3; ++channel) {
         double total = 0;
         for (const auto& [a, b] : eye_gaussians[channel]) {
+            if (a == 0) continue;
             const Weights gaussian = weights_of(radius, [&, breadth = b](double i) {
                 return std::exp(-pi * pi * i * i / (ppd * ppd * breadth));
             });
@@ -216,7 +217,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
             for (const double weight : gaussian) sum += weight;
             const double share = a * std::sqrt(pi / b);
             total += share * sum * sum;
-            if (a == 0) continue;
             const std::vector<double> part =
                 blurred(image, channel, gaussian, gaussian);
             for (std::size_t i = 0; i < part.size(); ++i)

@@ -132,9 +132,8 @@ void check(const UvMapT<T>& map) {
 /// A chessboard of `columns` by `rows` squares per repetition.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
-    /// Whether the map uses (u, v) of the shape.
-    static constexpr bool uses_uv = UsesUv<Map>;
-    Map map{};            ///< Maps a point to (u, v).
+    static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
+    Map map{};                                   ///< Maps a point to (u, v).
     RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
     RgbT<T> odd{T(0.1)};  ///< The colour of the squares next to an even square.
     int columns = 2;      ///< The number of squares from u = 0 to 1; even.
@@ -186,8 +185,7 @@ enum class PictureFilter : std::uint8_t {
 /// (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
-    /// Whether the map uses (u, v) of the shape.
-    static constexpr bool uses_uv = UsesUv<Map>;
+    static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
     PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.

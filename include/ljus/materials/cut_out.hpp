@@ -26,30 +26,25 @@ struct Holes {
 template <Material Base, typename Texture>
 using CutOut = Textured<Base, Holes<Texture>>;
 
-namespace detail {
-
-template <typename Texture>
-inline constexpr bool is_holes = false;
-template <typename Texture>
-inline constexpr bool is_holes<Holes<Texture>> = true;
-
-} // namespace detail
-
 /// Whether a point lies in a hole of the material or of its base.
 /// \cost That of color_at() of the mask.
 template <typename Base, typename Texture, std::floating_point T>
-requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
-    [[nodiscard]] bool is_open(const Textured<Base, Texture>& cut,
-                               const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+[[nodiscard]] bool is_open(const Textured<Base, Holes<Texture>>& cut,
+                           const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     static_assert(
         !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
         "A material with holes must be opaque: a path would get into a transparent "
         "body without crossing its surface.");
     if constexpr (CutOutMaterial<Base>)
         if (is_open(cut.base, position, uv)) return true;
-    if constexpr (detail::is_holes<Texture>)
-        return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
-    return false;
+    return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
+}
+
+/// Whether a point of a textured material lies in a hole of its base.
+template <CutOutMaterial Base, typename Texture, std::floating_point T>
+[[nodiscard]] bool is_open(const Textured<Base, Texture>& textured,
+                           const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+    return is_open(textured.base, position, uv);
 }
 
 /// Checks the mask and the cutoff.

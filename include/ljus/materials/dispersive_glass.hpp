@@ -29,10 +29,9 @@ concept DispersionLaw = requires(const Law& law, T nm) {
 ///     scene.add(DispersiveGlass{.law = sf10<float>});
 template <std::floating_point T, DispersionLaw<T> Law = SellmeierT<T>>
 struct DispersiveGlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    Law law{}; ///< The index at each wavelength.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    Law law{};                                  ///< The index at each wavelength.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
 };

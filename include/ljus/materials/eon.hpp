@@ -32,16 +32,15 @@ using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The loss of light of Fujii's second model,
+/// The loss of light of Fujii's second model \cite eon2025,
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
-/// that a white surface reflects, mu the cosine of the angle to the normal, and r the
-/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
+/// that a white surface reflects, mu the cosine of the angle to the normal, s its sine,
+/// and r the roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes
+/// G.
 /// \return At least 0, at most k_1.
-/// \cite eon2025
 // [eon loss]
 template <std::floating_point T>
-[[nodiscard]] T eon_loss(T sine, T cosine) noexcept {
-    const T s = sine, mu = cosine;
+[[nodiscard]] T eon_loss(T s, T mu) noexcept {
     // (1 - s^3)/mu is mu (1 + s + s^2)/(1 + s), which avoids 0/0 at grazing angles.
     const T steep = mu * (T(1) + s + s * s) / (T(1) + s) - T(1);
     const T g = s * (std::atan2(s, mu) - s * mu) + T(2) / T(3) * s * steep;

@@ -27,10 +27,9 @@ namespace ljus {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct GlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    T index = T(1.5); ///< Index of refraction inside.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    T index = T(1.5);                           ///< Index of refraction inside.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
     /// The formula for the reflectance: exact or approximate.
@@ -142,10 +141,9 @@ void check(const GlassT<T>& glass) {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct ThinGlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    T index = T(1.5); ///< Index of refraction of the glass.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    T index = T(1.5);                           ///< Index of refraction of the glass.
     /// Transmittance of the glass between its boundaries, for one crossing at normal
     /// incidence; in [0, 1].
     RgbT<T> tint{T(1)};

@@ -12,8 +12,7 @@ namespace ljus {
 /// Chapter: \ref ch_textures.
 ///
 /// The picture turns only the shading normal. The geometric normal, the outlines and
-/// the shadows remain those of the shape. Chapter \ref ch_shading_normals explains how
-/// light and photons are scattered where the two normals differ.
+/// the shadows remain those of the shape.
 /// \{
 
 /// A picture of normals, for Textured. Red, green and blue are (1 + n)/2, where n is

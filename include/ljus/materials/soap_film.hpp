@@ -31,9 +31,8 @@ enum class FilmColor : std::uint8_t {
 /// is `thickness` and h is `scale`.
 template <std::floating_point T>
 struct SoapFilmT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
     T scale = T(0); ///< The h of the formula, in scene units; 0: constant thickness.
@@ -54,8 +53,7 @@ inline constexpr T max_film_thickness = T(1e6);
 
 } // namespace detail
 
-/// The thickness of a film at a point.
-/// \return In nm, in [0, 1 mm].
+/// The thickness of a film at a point, in nm, within [0, 1 mm].
 template <std::floating_point T>
 [[nodiscard]] T thickness_at(const SoapFilmT<T>& film,
                              const Vec3T<T>& position) noexcept {
@@ -87,11 +85,10 @@ template <std::floating_point T>
 /// A film at one point, as a material of one thickness.
 template <std::floating_point T>
 struct FilmPointT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    const SoapFilmT<T>& film; ///< The film.
-    T thickness;              ///< Thickness at the point, in nm.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    const SoapFilmT<T>& film;                   ///< The film.
+    T thickness;                                ///< Thickness at the point, in nm.
 };
 
 /// Checks nothing, because the film has been checked.

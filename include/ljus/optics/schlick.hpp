@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/schlick.hpp
-/// \brief Schlick's approximation to Fresnel's equations. This header includes no other
-/// header.
+/// \brief Schlick's approximation to Fresnel's equations.
 
 namespace ljus {
 

@@ -21,11 +21,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The scene type of a room inside a sphere.
 template <std::floating_point T>
 using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
-
-/// The scene type of a room inside a box.
 template <std::floating_point T>
 using BoxFurnaceT = Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>>;
 
