@@ -63,7 +63,6 @@ struct GlassBoundaryT {
 /// Divides the light for the outgoing direction `wo`.
 /// \cost Three square roots and six to eight divisions; fewer in total internal
 ///       reflection.
-/// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,
                                          Transport transport) noexcept {

@@ -36,15 +36,12 @@ struct RoughDiffuseT {
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 
-/// \name The formulas as ratios to Lambert's BRDF, albedo/pi
-/// \{
-
 namespace detail {
 
-/// The formula of the report's program. Unlike oren_nayar_ratio(), it uses the cosine
-/// of the angle between wi and wo in place of that between their azimuths, has 0.57 in
-/// place of 0.33, and clamps the result to 1.
-/// \report{Section 3.2.1}
+/// The ratio of the formula of the report's program to Lambert's BRDF, albedo/pi.
+/// Unlike oren_nayar_ratio(), the formula uses the cosine of the angle between wi and
+/// wo in place of that between their azimuths, has 0.57 in place of 0.33, and clamps
+/// the result to 1.
 template <std::floating_point T>
 [[nodiscard]] T rough_as_printed(T sigma, const Vec3T<T>& wo,
                                  const Vec3T<T>& wi) noexcept {
@@ -140,12 +137,6 @@ template <std::floating_point T>
            (T(1) + roughness * fon_constant<T>);
 }
 // [fujii]
-
-} // namespace detail
-
-/// \}
-
-namespace detail {
 
 /// Pi times the BRDF, the weight of a cosine-weighted sample. It is at least 0:
 /// negative values of rough_full() are replaced by 0.
