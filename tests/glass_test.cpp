@@ -193,7 +193,7 @@ TEST_CASE("glass: what no glass can be is refused by name and value") {
     CHECK(refusal(Glass{}).empty());
     CHECK(refusal(Glass{.index = 1}).empty());
     CHECK(refusal(Glass{.index = -1}) ==
-          "glass.index is -1; it must be finite and above 0.");
+          "glass.index is -1; it must be within [0.001, 1000].");
     CHECK(refusal(Glass{.index = INFINITY}).find("glass.index") == 0);
     CHECK(refusal(Glass{.index = 1000}).empty());
     CHECK(refusal(Glass{.index = 0.001f}).empty());

@@ -500,6 +500,8 @@ TEST_CASE("mesh: what is wrong is said with its place") {
     CHECK_NOTHROW(check(taken));
     CHECK_THROWS_AS((void)icosphere(unit_ball, 11), std::invalid_argument);
     CHECK_THROWS_AS((void)torus(Vec3{0}, 1.0f, 0.3f, 2, 5), std::invalid_argument);
+    CHECK(ljus_test::refusal([] { (void)torus(Vec3{0}, 1.0f, 0.3f, 5, 20000); }) ==
+          "the number of segments is 20000; it must be within [3, 10000].");
 }
 
 TEST_CASE("mesh: a number is a triangle's, and the rest of it a place there") {

@@ -141,9 +141,9 @@ TEST_CASE("refraction: an index that no substance has is refused by name and val
     CHECK(message(1.5f).empty());
     CHECK(message(0.001f).empty());
     CHECK(message(1000.0f).empty());
-    CHECK(message(-1) == "glass.index is -1; it must be finite and above 0.");
-    CHECK(message(0) == "glass.index is 0; it must be finite and above 0.");
-    CHECK(message(NAN) == "glass.index is NaN; it must be finite and above 0.");
+    CHECK(message(-1) == "glass.index is -1; it must be within [0.001, 1000].");
+    CHECK(message(0) == "glass.index is 0; it must be within [0.001, 1000].");
+    CHECK(message(NAN) == "glass.index is NaN; it must be within [0.001, 1000].");
     CHECK(message(2000) == "glass.index is 2000; it must be within [0.001, 1000].");
     CHECK(message(0.0005f) ==
           "glass.index is 0.0005; it must be within [0.001, 1000].");

@@ -15,17 +15,15 @@ namespace ljus {
 /// the sRGB curve and limited to 255.
 /// \{
 
-/// The luminance Y of a linear sRGB colour (R, G, B), with the primaries of Rec. 709
-/// and the white D65.
-/// \return 0.2126 R + 0.7152 G + 0.0722 B; 1 for white.
+/// The luminance 0.2126 R + 0.7152 G + 0.0722 B of a linear sRGB colour, with the
+/// primaries of Rec. 709 and the white D65. It is 1 for white.
 template <std::floating_point T>
 [[nodiscard]] constexpr T luminance(const RgbT<T>& c) noexcept {
     return T(0.2126) * c.x + T(0.7152) * c.y + T(0.0722) * c.z;
 }
 
-/// The sRGB curve (IEC 61966-2-1): turns linear light into the encoded value.
-/// \return The encoded value in [0, 1]; 0 for NaN and for linear <= 0, 1 for linear >=
-///         1.
+/// The sRGB curve (IEC 61966-2-1): encodes linear light.
+/// \return In [0, 1]; 0 for NaN and for linear <= 0, 1 for linear >= 1.
 // [srgb_encode]
 [[nodiscard]] inline double srgb_encode(double linear) noexcept {
     if (!(linear > 0.0)) return 0.0; // written so that NaN is black
@@ -42,10 +40,9 @@ template <std::floating_point T>
     return y <= 0.04045 ? y / 12.92 : std::pow((y + 0.055) / 1.055, 2.4);
 }
 
-/// The byte of a picture file for one channel.
+/// The byte of a picture file for one channel: floor(255 y + 1/2), where y is the
+/// encoded value in double. In float, some bytes would be off by one.
 /// \param linear  Any number. NaN and negative numbers give 0; 1 and above give 255.
-/// \return floor(255 y + 1/2), where y is the encoded value in double. In float, some
-///         bytes would be off by one.
 [[nodiscard]] inline unsigned char srgb_byte(double linear) noexcept {
     return static_cast<unsigned char>(255.0 * srgb_encode(linear) + 0.5);
 }

@@ -36,10 +36,9 @@ enum class Filter : std::uint8_t {
     return radii[static_cast<std::size_t>(filter)];
 }
 
-/// The weight of a filter along one axis, at the distance x from the pixel's centre, in
-/// pixels.
-/// \return The weight per pixel of length. Its integral over x is 1, and it is 0
-///         outside the radius.
+/// The weight of a filter along one axis, per pixel of length, at the distance x from
+/// the pixel's centre, in pixels. Its integral over x is 1, and it is 0 outside the
+/// radius.
 /// \cite mitchell1988
 // [filter weight]
 template <std::floating_point T>
@@ -63,8 +62,7 @@ template <std::floating_point T>
 }
 // [filter weight]
 
-/// A film position that was sampled for a pixel, and the weight of a ray through this
-/// position.
+/// A film position that was sampled for a pixel.
 template <std::floating_point T>
 struct FilterSampleT {
     /// The position in pixels, from the pixel's upper left corner.
@@ -75,7 +73,7 @@ struct FilterSampleT {
 namespace detail {
 
 /// The integral of a filter's absolute weight from the centre to each of 65 equally
-/// spaced distances up to the radius. It is divided by the integral up to the radius.
+/// spaced distances up to the radius, over the integral up to the radius.
 using FilterTable = std::array<double, 65>;
 
 [[nodiscard]] inline FilterTable make_filter_table(Filter filter) noexcept {
@@ -90,18 +88,16 @@ using FilterTable = std::array<double, 65>;
     return cdf;
 }
 
-/// The table for sampling the Gaussian or Mitchell's filter. Their integrals have no
-/// inverse in closed form.
+/// The table for the Gaussian or Mitchell's filter, whose integrals have no inverse in
+/// closed form.
 [[nodiscard]] inline const FilterTable& filter_table(Filter filter) noexcept {
     static const FilterTable gaussian = make_filter_table(Filter::gaussian);
     static const FilterTable mitchell = make_filter_table(Filter::mitchell);
     return filter == Filter::gaussian ? gaussian : mitchell;
 }
 
-/// Samples a position along one axis by inversion.
-/// \param filter  Any filter except the box.
-/// \param u       A random number in [0, 1]. The position increases with u, so that
-///                strata of u give strata of positions.
+/// Samples a position along one axis by inversion, for any filter except the box. The
+/// position increases with u, so that strata of u give strata of positions.
 /// \return In x the signed distance from the pixel's centre, in pixels; in y the
 ///         weight, which is the filter divided by the pdf.
 template <std::floating_point T>
@@ -125,8 +121,6 @@ template <std::floating_point T>
 /// Samples the film position of a ray in proportion to the filter: *filter importance
 /// sampling* \cite ernst2006. A ray contributes to one pixel only, so that pixels are
 /// independent of each other. The mean of weight times radiance is the filtered pixel.
-/// \param filter  The filter.
-/// \param u       Point of the unit square, from the pixel's pattern.
 /// \return The position and its weight. The weight is 1 for the box and the tent and
 ///         near 1 for the Gaussian. For Mitchell's filter it is a product of two
 ///         numbers near 1.3 or -1.3.

@@ -22,9 +22,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The contributions of red, green and blue, with the primaries of Rec. 709, to each of
-/// X, Y and Z. The contributions to each add up to 1, because X, Y and Z are relative
-/// to the white point.
+/// The contributions of red, green and blue, with the primaries of Rec. 709, to X, Y
+/// and Z, in units of the white point. Each row adds up to 1.
 inline constexpr Vec3T<double> xyz_weights[3] = {
     Vec3T<double>{10135552, 8788810, 4435075} / 23359437.0,
     Vec3T<double>{2613072, 8788810, 887015} / 12288897.0,
@@ -36,7 +35,7 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
             glm::dot(xyz_weights[2], c)};
 }
 
-/// Converts XYZ to a linear sRGB colour: the inverse of xyz_over_white().
+/// The inverse of xyz_over_white().
 [[nodiscard]] inline RgbT<double> rgb_of(const Vec3T<double>& xyz) noexcept {
     // Cramer's rule: cross products of two rows over the determinant.
     const auto& [x, y, z] = xyz_weights;
@@ -45,8 +44,8 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
            glm::dot(x, yz);
 }
 
-/// Converts a colour to YCxCz: lightness, red-green and blue-yellow. The three channels
-/// are linear in light, so that they can be blurred.
+/// Converts a linear sRGB colour to YCxCz: lightness, red-green and blue-yellow. The
+/// channels are linear in light, so that they can be blurred.
 /// \return 116 Y - 16, 500 (X - Y) and 200 (Y - Z), with X, Y and Z in units of white.
 [[nodiscard]] inline Vec3T<double> opponent(const RgbT<double>& c) noexcept {
     const Vec3T<double> white = xyz_over_white(c);
@@ -59,9 +58,8 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
     return rgb_of({y + c.y / 500, y, y - c.z / 200});
 }
 
-/// Converts a colour to L*a*b* with the Hunt effect, which makes dark colours less
-/// colourful.
-/// \return L*, and a* and b* multiplied by L*/100.
+/// Converts a linear sRGB colour to L*, and a* and b* multiplied by L*/100. This is the
+/// Hunt effect: dark colours look less colourful.
 [[nodiscard]] inline Vec3T<double> hunt_lab(const RgbT<double>& c) noexcept {
     const auto root = [](double t) {
         constexpr double d = 6.0 / 29;
@@ -153,10 +151,9 @@ template <std::floating_point T>
     return result;
 }
 
-/// The distance, in pixels, up to which other pixels influence a pixel's FLIP. It is
-/// three standard deviations of the eye's widest Gaussian; the edge detector is
-/// narrower.
-/// \param ppd  Pixels per degree of the visual field.
+/// The distance, in pixels, up to which other pixels influence a pixel's FLIP, for
+/// `ppd` pixels per degree of the visual field. It is three standard deviations of the
+/// eye's widest Gaussian; the edge detector is narrower.
 [[nodiscard]] inline int eye_radius(double ppd) noexcept {
     return static_cast<int>(
         std::ceil(3 * std::sqrt(0.04 / 2) / std::numbers::pi * ppd));
@@ -169,18 +166,17 @@ void copy_part(const ImageT<T>& from, int x, int y, int width, int height,
         std::copy_n(&pixel(from, x, y + row), width, &pixel(to, to_x, to_y + row));
 }
 
-/// Makes an error map of two pictures tile by tile, so that intermediate results need
-/// memory for one tile only. Each tile includes a margin of eye_radius() pixels. The
-/// map is therefore the same as without tiles.
-/// \param image      The picture.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        Pixels per degree of the visual field.
-/// \param make       Called as make(image, reference) with a tile of both pictures;
-///                   returns the error map of this tile.
+/// Makes an error map of two pictures of the same size tile by tile, so that
+/// intermediate results need memory for one tile only. Each tile includes a margin of
+/// eye_radius() pixels. The map is therefore the same as without tiles.
+/// `make(image, reference)` returns the error map of a tile of both pictures.
+/// \throws std::invalid_argument  if the sizes differ, or ppd is not within [1, 1000].
 template <std::floating_point T, std::floating_point U, typename Make>
 [[nodiscard]] ImageT<double> map_by_tiles(const ImageT<T>& image,
                                           const ImageT<U>& reference, double ppd,
                                           Make make) {
+    require_same_size(image, reference);
+    require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
     const int around = eye_radius(ppd), side = std::max(512, 8 * around);
     const int most = side + 2 * around; // of a tile with its margin
     if (image.width <= most && image.height <= most) return make(image, reference);
@@ -203,7 +199,7 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return map;
 }
 
-/// Converts a picture from YCxCz to what a viewer sees, in linear sRGB. Each channel is
+/// Converts a picture from YCxCz to what a viewer sees, in linear sRGB: each channel is
 /// blurred by the eye's contrast sensitivity.
 [[nodiscard]] inline ImageT<double> eye_filtered(const ImageT<double>& image,
                                                  double ppd) {
@@ -213,6 +209,7 @@ template <std::floating_point T, std::floating_point U, typename Make>
     for (int channel = 0; channel < 3; ++channel) {
         double total = 0;
         for (const auto& [a, b] : eye_gaussians[channel]) {
+            if (a == 0) continue;
             const Weights gaussian = weights_of(radius, [&, breadth = b](double i) {
                 return std::exp(-pi * pi * i * i / (ppd * ppd * breadth));
             });
@@ -220,7 +217,6 @@ template <std::floating_point T, std::floating_point U, typename Make>
             for (const double weight : gaussian) sum += weight;
             const double share = a * std::sqrt(pi / b);
             total += share * sum * sum;
-            if (a == 0) continue;
             const std::vector<double> part =
                 blurred(image, channel, gaussian, gaussian);
             for (std::size_t i = 0; i < part.size(); ++i)
@@ -262,22 +258,20 @@ template <std::floating_point T, std::floating_point U, typename Make>
     return found;
 }
 
-/// The number of pixels per degree of the visual field.
+/// The number of pixels per degree of the visual field, 67.0 for the defaults.
 /// \param distance  From the eye to the screen, in metres.
 /// \param width     Width of the screen, in metres.
 /// \param pixels    Pixels along the width.
-/// \return Pixels per degree; 67.0 for the defaults.
 [[nodiscard]] constexpr double pixels_per_degree(double distance = 0.7,
                                                  double width = 0.7,
                                                  double pixels = 3840) noexcept {
     return distance * pixels / width * std::numbers::pi / 180;
 }
 
-/// The perceived difference of two linear sRGB colours, without their surroundings.
-/// The HyAB distance is raised to the power 0.7. The largest result, that of pure green
-/// and pure blue, is mapped to 1. Results up to 0.4 of the largest are mapped linearly
-/// to [0, 0.95], and larger ones linearly to [0.95, 1].
-/// \return 0 for equal colours, 1 for green and blue.
+/// The perceived difference of two linear sRGB colours, without their surroundings. The
+/// HyAB distance is raised to the power 0.7. The largest result, that of pure green and
+/// pure blue, is mapped to 1. Results up to 0.4 of the largest are mapped linearly to
+/// [0, 0.95], and larger ones linearly to [0.95, 1].
 [[nodiscard]] inline double color_error(const RgbT<double>& a, const RgbT<double>& b) {
     const auto powered = [](const RgbT<double>& p, const RgbT<double>& q) {
         return std::pow(hyab(hunt_lab(p), hunt_lab(q)), 0.7);
@@ -294,16 +288,13 @@ template <std::floating_point T, std::floating_point U, typename Make>
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_tile(const ImageT<T>& image,
                                        const ImageT<U>& reference, double ppd) {
-    const ImageT<double> a = detail::opponent_image(image),
-                         b = detail::opponent_image(reference);
-    const ImageT<double> seen_a = detail::eye_filtered(a, ppd),
-                         seen_b = detail::eye_filtered(b, ppd);
-    const ImageT<double> features_a = detail::features(a, ppd),
-                         features_b = detail::features(b, ppd);
+    const ImageT<double> a = opponent_image(image), b = opponent_image(reference);
+    const ImageT<double> seen_a = eye_filtered(a, ppd), seen_b = eye_filtered(b, ppd);
+    const ImageT<double> features_a = features(a, ppd), features_b = features(b, ppd);
 
     ImageT<double> map = make_image<double>(image.width, image.height);
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-        const double color = detail::color_error(seen_a.pixels[i], seen_b.pixels[i]);
+        const double color = color_error(seen_a.pixels[i], seen_b.pixels[i]);
         const RgbT<double> change = features_a.pixels[i] - features_b.pixels[i];
         const double larger = glm::max(std::abs(change.x), std::abs(change.y));
         const double feature = std::sqrt(larger / std::numbers::sqrt2);
@@ -323,23 +314,18 @@ template <std::floating_point T, std::floating_point U>
 } // namespace detail
 
 /// FLIP of each pixel: how visible the change of the pixel is to a viewer who flips
-/// between two pictures. Before colours are compared, detail that is too fine for the
-/// eye is blurred. Where only one picture has an edge or a point, the colour difference
-/// is raised to a power below 1, which makes it larger.
-/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// between two pictures of the same size. They are linear sRGB, clamped to [0, 1] as on
+/// a screen. `ppd` is from pixels_per_degree(). Before colours are compared, detail
+/// that is too fine for the eye is blurred. Where only one picture has an edge or a
+/// point, the colour difference is raised to a power below 1, which makes it larger.
 /// \return A grey image in [0, 1]; 0 where no difference is visible.
-/// \throws std::invalid_argument  if the sizes differ, or if ppd is not within [1,
-///         1000].
+/// \throws std::invalid_argument  if the sizes differ, or ppd is not within [1, 1000].
 /// \cost Proportional to the number of pixels times ppd.
 /// \cite andersson2020
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> flip_map(const ImageT<T>& image,
                                       const ImageT<U>& reference,
                                       double ppd = detail::pixels_per_degree()) {
-    detail::require_same_size(image, reference);
-    require(ppd >= 1 && ppd <= 1000, "pixels per degree", ppd, "from 1 to 1000");
     return detail::map_by_tiles(image, reference, ppd,
                                 [ppd](const auto& tile, const auto& reference_tile) {
                                     return detail::flip_tile(tile, reference_tile, ppd);
@@ -351,9 +337,6 @@ template <std::floating_point T, std::floating_point U>
 /// *Trap*: FLIP is valid for pictures shown alternately in the same position on a
 /// screen, for one viewing distance and one exposure. The FLIP values of several errors
 /// cannot be added.
-/// \param image      Linear sRGB; clamped to [0, 1], as on a screen.
-/// \param reference  The other picture, of the same size.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A number in [0, 1]; exchanging the two pictures does not change it.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>

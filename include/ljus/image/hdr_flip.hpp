@@ -34,10 +34,9 @@ struct Exposures {
                     1.0);
 }
 
-/// The range of exposures at which a picture shows details.
-/// \return The range. At the first exposure, film_curve() maps the brightest luminance
-///         to 0.85. At the last exposure, film_curve() maps the median luminance to
-///         0.85.
+/// The range of exposures at which a picture shows details. film_curve() maps the
+/// brightest luminance to 0.85 at the first exposure, and the median luminance to 0.85
+/// at the last.
 template <std::floating_point T>
 [[nodiscard]] Exposures exposures_of(const ImageT<T>& reference) {
     check(reference);
@@ -64,11 +63,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures.
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size. It alone determines the
-///                   exposures.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
+/// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures, which the
+/// reference alone determines. The pictures are linear sRGB of any brightness.
 /// \return A grey image in [0, 1].
 /// \throws std::invalid_argument  as flip_map().
 /// \cost That of flip_map(), times about the number of stops between the brightest and
@@ -78,7 +74,6 @@ template <std::floating_point T, std::floating_point U>
 [[nodiscard]] ImageT<double> hdr_flip_map(const ImageT<T>& image,
                                           const ImageT<U>& reference,
                                           double ppd = detail::pixels_per_degree()) {
-    detail::require_same_size(image, reference);
     const detail::Exposures exposures = detail::exposures_of(reference);
     const auto worst_of = [&](const auto& tile, const auto& reference_tile) {
         ImageT<double> worst = make_image<double>(tile.width, tile.height);
@@ -94,7 +89,8 @@ template <std::floating_point T, std::floating_point U>
                             detail::film_curve(light * double(picture.pixels[k][c]));
                 return result;
             };
-            const auto map = flip_map(developed(tile), developed(reference_tile), ppd);
+            const auto map =
+                detail::flip_tile(developed(tile), developed(reference_tile), ppd);
             for (std::size_t k = 0; k < map.pixels.size(); ++k)
                 worst.pixels[k] = glm::max(worst.pixels[k], map.pixels[k]);
         }
@@ -104,10 +100,6 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \param image      Linear sRGB of any brightness.
-/// \param reference  The reference, of the same size. It alone determines the
-///                   exposures.
-/// \param ppd        Pixels per degree of the visual field, from pixels_per_degree().
 /// \return A number in [0, 1]. It stays the same if both pictures are scaled by one
 ///         number.
 /// \throws std::invalid_argument  as flip_map().

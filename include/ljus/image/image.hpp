@@ -97,10 +97,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The colour of pixel (x, y), for writing.
-/// \param image  The image.
-/// \param x      Column from the left, in [0, width).
-/// \param y      Row from the top, in [0, height).
+/// The colour of pixel (x, y), for writing: column x from the left, in [0, width), and
+/// row y from the top, in [0, height).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T>& pixel(ImageT<T>& image, int x, int y) noexcept {
     return image.pixels[detail::pixel_index(image, x, y)];
@@ -112,10 +110,8 @@ template <std::floating_point T>
     return image.pixels[detail::pixel_index(image, x, y)];
 }
 
-/// Requires an image of radiances that are finite and at least 0. At least one pixel
-/// must not be black.
-/// \param what   The name of the image, for the message.
-/// \param image  The image.
+/// Requires an image of radiances that are finite and at least 0, and not all black.
+/// `what` is the name of the image, for the message.
 /// \throws std::invalid_argument  as check(); if a pixel is negative or not finite,
 ///         with its column and row; or if all pixels are black.
 template <std::floating_point T>

@@ -25,9 +25,8 @@ struct LayerT {
 };
 using Layer = LayerT<float>; ///< LayerT in float.
 
-/// The full name of a channel in OpenEXR: "albedo.R", or "Z" in a layer without a name.
-/// \param layer    The layer.
-/// \param channel  The index of the channel, below channels.size().
+/// The full name in OpenEXR of the channel with this index: "albedo.R", or "Z" in a
+/// layer without a name.
 template <std::floating_point T>
 [[nodiscard]] std::string channel_name(const LayerT<T>& layer, std::size_t channel) {
     const std::string& own = layer.channels[channel];

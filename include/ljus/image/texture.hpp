@@ -22,14 +22,13 @@ namespace ljus {
 /// A texture is a type with the functions `color_at(texture, place, uv)` and
 /// `check(texture)`. A map is a type with the functions
 /// `map_coordinates(map, place, uv)` and `check(map)`. `place` is the point in scene
-/// units. `uv` are the coordinates of the point on its own shape, see
+/// units, and `uv` are the coordinates of the point on its own shape, see
 /// texture_coordinates(). A type receives `uv` only if it declares
 /// `static constexpr bool uses_uv = true`; otherwise `uv` is (0, 0). Both textures here
 /// repeat with period 1 in u and in v, unless a picture has another PictureWrap.
 /// \{
 
-/// Projects each point of a surface orthogonally onto a plane. The point `origin` of
-/// the plane has (u, v) = (0, 0), and `origin + edge_u` has (1, 0).
+/// Projects each point of a surface orthogonally onto a plane.
 template <std::floating_point T>
 struct PlaneMapT {
     Vec3T<T> origin{T(0)}; ///< The point with (u, v) = (0, 0).
@@ -62,8 +61,7 @@ using UvMap = UvMapT<float>; ///< UvMapT in float.
 template <typename M>
 concept UsesUv = M::uses_uv;
 
-/// The coordinates (u, v) of a point projected onto a plane. The texture repeats
-/// whenever u or v grows by 1.
+/// The coordinates (u, v) of a point projected onto a plane.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> map_coordinates(const PlaneMapT<T>& map, const Vec3T<T>& place,
                                        const Vec2T<T>& = Vec2T<T>{T(0)}) noexcept {
@@ -90,11 +88,9 @@ template <std::floating_point T>
            map.offset;
 }
 
-/// Converts a direction in a picture to the direction on the shape. The direction is
-/// rotated back, and mirrored where the scale is negative.
-/// \param map    How the picture lies on the shape.
-/// \param along  The direction's components along u and v of the picture.
-/// \return The components along u and v of the shape. The length stays the same.
+/// Converts a direction along u and v of the picture to the direction along u and v of
+/// the shape. It is rotated back, and mirrored where the scale is negative. The length
+/// stays the same.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> direction_on_shape(const UvMapT<T>& map,
                                           const Vec2T<T>& along) noexcept {
@@ -105,7 +101,6 @@ template <std::floating_point T>
 }
 
 /// Requires a finite origin, and finite edges that are not zero.
-/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const PlaneMapT<T>& map) {
     require_finite("plane_map.origin", map.origin);
@@ -116,7 +111,6 @@ void check(const PlaneMapT<T>& map) {
 }
 
 /// Requires a finite centre.
-/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const GlobeMapT<T>& map) {
     require_finite("globe_map.center", map.center);
@@ -124,7 +118,6 @@ void check(const GlobeMapT<T>& map) {
 
 /// Requires a finite scale that is not zero, a `turn` of unit length and a finite
 /// offset.
-/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T>
 void check(const UvMapT<T>& map) {
     for (const T scale : {map.scale.x, map.scale.y})
@@ -139,9 +132,8 @@ void check(const UvMapT<T>& map) {
 /// A chessboard of `columns` by `rows` squares per repetition.
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
-    /// Whether the map uses (u, v) of the shape.
-    static constexpr bool uses_uv = UsesUv<Map>;
-    Map map{};            ///< Maps a point to (u, v).
+    static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
+    Map map{};                                   ///< Maps a point to (u, v).
     RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
     RgbT<T> odd{T(0.1)};  ///< The colour of the squares next to an even square.
     int columns = 2;      ///< The number of squares from u = 0 to 1; even.
@@ -163,7 +155,6 @@ template <std::floating_point T, typename Map>
 
 /// Requires a valid map, colours within [0, 1] and even numbers of squares, from 2 to
 /// 1000000.
-/// \throws std::invalid_argument  with the name of the member and its value.
 template <std::floating_point T, typename Map>
 void check(const CheckerT<T, Map>& checker) {
     check(checker.map);
@@ -194,14 +185,11 @@ enum class PictureFilter : std::uint8_t {
 /// (1, 1).
 template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct PictureTextureT {
-    /// Whether the map uses (u, v) of the shape.
-    static constexpr bool uses_uv = UsesUv<Map>;
+    static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
-    /// What the picture shows beyond its border.
-    PictureWrap wrap = PictureWrap::repeat;
-    /// How a colour between pixel centres is found.
-    PictureFilter filter = PictureFilter::bilinear;
+    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.
+    PictureFilter filter = PictureFilter::bilinear; ///< Between pixel centres.
 };
 using PictureTexture = PictureTextureT<float>; ///< A picture on a plane, in float.
 /// A picture in the coordinates of the shape, in float.
@@ -243,8 +231,6 @@ template <std::floating_point T, typename Map>
 
 /// Requires a valid map, and an image with at least one pixel and all channels within
 /// [0, 1].
-/// \throws std::invalid_argument  with the name of the member or the number of the
-///         pixel, and its value.
 template <std::floating_point T, typename Map>
 void check(const PictureTextureT<T, Map>& texture) {
     check(texture.map);

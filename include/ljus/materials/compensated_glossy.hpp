@@ -18,7 +18,6 @@ namespace ljus {
 /// A rough mirror with a second lobe for the light that meets several facets, see
 /// \ref multiple_scattering. Programs make it by compensated_glossy(). White facets
 /// reflect 0.9996 to 1.00001 of the light of a uniform sky, at any roughness and angle.
-/// With coloured facets, light that meets several of them is tinted several times.
 /// \tparam Facet  As for GlossyT.
 template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
@@ -49,12 +48,9 @@ template <std::floating_point T, typename Facet>
 
 } // namespace detail
 
-/// Adds multiple scattering to a rough mirror, with a table that has been computed
-/// before.
-/// \param first  The rough mirror.
-/// \param loss   The table, from bake_energy_loss() or from another material of the
-///               same roughness. It is checked when the material is added to a scene.
-/// \return The material.
+/// Adds multiple scattering to the rough mirror `first`. The table `loss` is from
+/// bake_energy_loss() or from another material of the same roughness; the scene checks
+/// it.
 /// \throws std::invalid_argument  as check(first).
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F>
@@ -65,8 +61,8 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
             .mean = detail::mean_reflectance<T>(first.reflectance)};
 }
 
-/// Adds multiple scattering to a rough mirror.
-/// \return The material. With roughness 0 it scatters like the mirror itself.
+/// Adds multiple scattering to a rough mirror. With roughness 0 the material scatters
+/// like the mirror itself.
 /// \throws std::invalid_argument  as check(first).
 /// \cost That of bake_energy_loss(): about 50 ms.
 template <std::floating_point T, typename F>
@@ -108,7 +104,7 @@ namespace detail {
 template <std::floating_point T, typename F>
 [[nodiscard]] T first_probability(const CompensatedGlossyT<T, F>& gloss,
                                   const Vec3T<T>& wo) noexcept {
-    const T lost = detail::lost_at(gloss.loss, std::abs(wo.z));
+    const T lost = lost_at(gloss.loss, std::abs(wo.z));
     const T first = (T(1) - lost) * max_component(gloss.mean);
     const T again =
         lost * max_component(multiple_scattering(gloss.mean, gloss.loss.mean));
@@ -117,8 +113,7 @@ template <std::floating_point T, typename F>
 
 } // namespace detail
 
-/// The density of sample().
-/// \return Per steradian on the side of `wo`; 0 elsewhere.
+/// The density of sample(), per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo,
                     const Vec3T<T>& wi, Lobes which = Lobes::all) noexcept {

@@ -11,8 +11,7 @@ namespace ljus {
 /// \brief Materials with holes, for example a leaf on a square. Chapter:
 /// \ref ch_textures.
 ///
-/// The search for the nearest hit skips a hit in a hole, for rays and photons alike
-/// \cite pharr2023.
+/// Rays and photons skip a hit in a hole \cite pharr2023.
 /// \{
 
 /// The holes of a CutOut material, given by a texture.
@@ -27,35 +26,29 @@ struct Holes {
 template <Material Base, typename Texture>
 using CutOut = Textured<Base, Holes<Texture>>;
 
-namespace detail {
-
-template <typename Texture>
-inline constexpr bool is_holes = false;
-template <typename Texture>
-inline constexpr bool is_holes<Holes<Texture>> = true;
-
-} // namespace detail
-
 /// Whether a point lies in a hole of the material or of its base.
 /// \cost That of color_at() of the mask.
 template <typename Base, typename Texture, std::floating_point T>
-requires(detail::is_holes<Texture> || CutOutMaterial<Base>)
-    [[nodiscard]] bool is_open(const Textured<Base, Texture>& cut,
-                               const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+[[nodiscard]] bool is_open(const Textured<Base, Holes<Texture>>& cut,
+                           const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     static_assert(
         !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
         "A material with holes must be opaque: a path would get into a transparent "
         "body without crossing its surface.");
     if constexpr (CutOutMaterial<Base>)
         if (is_open(cut.base, position, uv)) return true;
-    if constexpr (detail::is_holes<Texture>)
-        return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
-    return false;
+    return double(color_at(cut.texture.mask, position, uv).x) < cut.texture.cutoff;
+}
+
+/// Whether a point of a textured material lies in a hole of its base.
+template <CutOutMaterial Base, typename Texture, std::floating_point T>
+[[nodiscard]] bool is_open(const Textured<Base, Texture>& textured,
+                           const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
+    return is_open(textured.base, position, uv);
 }
 
 /// Checks the mask and the cutoff.
-/// \throws std::invalid_argument  if a member is not valid; the message names the
-///         member.
+/// \throws std::invalid_argument  with the name of the member that is not valid.
 template <typename Texture>
 void check(const Holes<Texture>& holes) {
     check(holes.mask);

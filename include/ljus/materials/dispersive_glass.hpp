@@ -15,8 +15,8 @@ namespace ljus {
 /// \addtogroup dispersion
 /// \{
 
-/// A law that gives the index of refraction at a wavelength in nanometres, by
-/// `refractive_index(law, nm)`. SellmeierT and CauchyT are such laws.
+/// A law that gives the index of refraction at a wavelength in nanometres, like
+/// SellmeierT and CauchyT.
 template <typename Law, typename T>
 concept DispersionLaw = requires(const Law& law, T nm) {
     { refractive_index(law, nm) } -> std::same_as<T>;
@@ -29,20 +29,16 @@ concept DispersionLaw = requires(const Law& law, T nm) {
 ///     scene.add(DispersiveGlass{.law = sf10<float>});
 template <std::floating_point T, DispersionLaw<T> Law = SellmeierT<T>>
 struct DispersiveGlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    Law law{}; ///< The index at each wavelength.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    Law law{};                                  ///< The index at each wavelength.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
 };
 /// DispersiveGlassT in float. The default law gives an index of 1 at every wavelength.
 using DispersiveGlass = DispersiveGlassT<float>;
 
-/// The glass at one wavelength. Renderers call this function with the wavelength of a
-/// path, and the photon pass with that of a photon.
-/// \param glass  The glass.
-/// \param nm     Wavelength in nm, in [360, 830].
+/// The glass at the wavelength `nm`, in nanometres, in [360, 830].
 // [at_wavelength]
 template <std::floating_point T, typename Law>
 [[nodiscard]] GlassT<T> at_wavelength(const DispersiveGlassT<T, Law>& glass,

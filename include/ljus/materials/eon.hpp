@@ -15,10 +15,9 @@ namespace ljus {
 /// \defgroup eon Energy-preserving Oren-Nayar
 /// \brief Section 3.2.1: EON, a model that conserves energy \cite eon2025.
 ///
-/// Fujii's second model loses the light that facets send to each other. The lost
-/// fraction has a closed form. EON adds this light to the BRDF, see
-/// \ref multiple_scattering. A white surface therefore reflects all light, at any
-/// roughness.
+/// Fujii's second model loses the light that facets send to each other. EON adds this
+/// light to the BRDF, see \ref multiple_scattering, because the lost fraction has a
+/// closed form. A white surface therefore reflects all light, at any roughness.
 /// \{
 
 /// A two-sided matt surface that conserves energy.
@@ -33,16 +32,15 @@ using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The loss of light of Fujii's second model,
+/// The loss of light of Fujii's second model \cite eon2025,
 /// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
-/// that a white surface reflects, mu the cosine of the angle to the normal, and r the
-/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
+/// that a white surface reflects, mu the cosine of the angle to the normal, s its sine,
+/// and r the roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes
+/// G.
 /// \return At least 0, at most k_1.
-/// \cite eon2025
 // [eon loss]
 template <std::floating_point T>
-[[nodiscard]] T eon_loss(T sine, T cosine) noexcept {
-    const T s = sine, mu = cosine;
+[[nodiscard]] T eon_loss(T s, T mu) noexcept {
     // (1 - s^3)/mu is mu (1 + s + s^2)/(1 + s), which avoids 0/0 at grazing angles.
     const T steep = mu * (T(1) + s + s * s) / (T(1) + s) - T(1);
     const T g = s * (std::atan2(s, mu) - s * mu) + T(2) / T(3) * s * steep;
@@ -56,12 +54,12 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                    (T(2) / T(3) -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
-/// Pi times the BRDF. The BRDF is Fujii's second model plus a term for the light that
-/// this model loses; see \ref multiple_scattering. The factor by which eon_loss()
-/// divides cancels. A roughness of 0 therefore needs no special case.
-/// \param wo, wi   Unit vectors on the same side.
+/// Pi times the BRDF: Fujii's second model plus a term for the light that this model
+/// loses, see \ref multiple_scattering. The factor by which eon_loss() divides cancels,
+/// so that a roughness of 0 needs no special case.
+/// \param wo, wi  Unit vectors on the same side.
 /// \return At least 0.
-/// \cost Two arc tangents, four square roots, eight divisions.
+/// \cost Two arc tangents, two square roots, nine divisions.
 // [eon]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> eon_weight(const EonT<T>& surface, const Vec3T<T>& wo,
@@ -77,17 +75,14 @@ template <std::floating_point T>
 }
 // [eon]
 
-/// A cosine lobe that is sheared towards the outgoing direction and cut at the horizon.
-/// The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
+/// A cosine lobe that is sheared towards the outgoing direction wo and cut at the
+/// horizon. The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
 /// directions to directions whose density is nearly proportional to the BRDF times the
-/// cosine. The x axis points along the azimuth of wo. The entries a, b, c and d are
-/// fitted, in listing 2 of \cite eon2025.
+/// cosine. The x axis points along the azimuth of wo. The entries are fitted, in
+/// listing 2 of \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
-    T a;            ///< Row 1, column 1 of the matrix M.
-    T b;            ///< Row 1, column 3 of the matrix M.
-    T c;            ///< Row 2, column 2 of the matrix M.
-    T d;            ///< Row 3, column 1 of the matrix M; at most 0.
+    T a, b, c, d;   ///< The entries of M; d is at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
     T uniform;      ///< The probability of a uniform direction, not from the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
@@ -116,8 +111,8 @@ template <std::floating_point T>
     return lobe;
 }
 
-/// The density of sample_eon_lobe() for a direction above the horizon.
-/// \return Per steradian, above 0.
+/// The density of sample_eon_lobe() for a direction above the horizon, per steradian.
+/// It is above 0.
 template <std::floating_point T>
 [[nodiscard]] T pdf_eon_lobe(const EonLobeT<T>& lobe, const Vec3T<T>& wi) noexcept {
     const T x = lobe.along.x * wi.x + lobe.along.y * wi.y;
@@ -136,10 +131,9 @@ template <std::floating_point T>
     return lobe.uniform * even + (T(1) - lobe.uniform) * bent;
 }
 
-/// Samples a direction with the density pdf_eon_lobe(). u.z chooses between the lobe
-/// and a uniform direction.
+/// Samples a direction with the density pdf_eon_lobe() \cite eon2025. u.z chooses
+/// between the lobe and a uniform direction.
 /// \return A unit vector above the horizon or, by rounding, on the horizon.
-/// \cite eon2025
 // [eon lobe sample]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_eon_lobe(const EonLobeT<T>& lobe,
@@ -168,8 +162,7 @@ template <std::floating_point T>
     return Lobes::diffuse;
 }
 
-/// The BRDF.
-/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// The BRDF, in 1/sr, without the cosine; 0 if the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const EonT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
@@ -177,8 +170,7 @@ template <std::floating_point T>
     return std::numbers::inv_pi_v<T> * detail::eon_weight(surface, wo, wi);
 }
 
-/// The density of sample().
-/// \return Per steradian on the side of `wo`; 0 elsewhere.
+/// The density of sample(), per steradian on the side of `wo`; 0 elsewhere.
 template <std::floating_point T>
 [[nodiscard]] T pdf(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -188,9 +180,8 @@ template <std::floating_point T>
 }
 
 /// Samples a direction with a density nearly proportional to the BRDF times the cosine
-/// to the normal.
+/// \cite eon2025.
 /// \cost About three times that of a cosine-weighted direction.
-/// \cite eon2025
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,

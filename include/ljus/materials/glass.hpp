@@ -19,8 +19,7 @@ namespace ljus {
 /// \brief Section 3.2.5: surfaces that reflect and refract.
 /// \erratum{The report's program reflects the same fraction at every angle, multiplies
 /// refracted light by a cosine, reflects nothing inside the glass, and returns up to
-/// 1.6 times the incident light. This library reflects the fraction F of the light,
-/// Fresnel's reflectance, and refracts the rest.}
+/// 1.6 times the incident light.}
 /// \{
 
 /// The smooth boundary between a transparent body and air. The side z > 0 is air, with
@@ -28,10 +27,9 @@ namespace ljus {
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct GlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    T index = T(1.5); ///< Index of refraction inside.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    T index = T(1.5);                           ///< Index of refraction inside.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
     /// The formula for the reflectance: exact or approximate.
@@ -41,6 +39,19 @@ using Glass = GlassT<float>; ///< GlassT in float.
 
 namespace detail {
 
+/// The indices on both sides of a boundary, as seen from `wo`.
+template <std::floating_point T>
+struct SidesT {
+    T here = T(1);   ///< Index on the side of `wo`.
+    T beyond = T(1); ///< Index on the other side.
+};
+
+template <typename G, std::floating_point T>
+[[nodiscard]] SidesT<T> sides(const G& glass, const Vec3T<T>& wo) noexcept {
+    if (wo.z > T(0)) return {T(1), glass.index};
+    return {glass.index, T(1)};
+}
+
 /// How a boundary divides light between reflection and refraction.
 template <std::floating_point T>
 struct GlassBoundaryT {
@@ -49,16 +60,13 @@ struct GlassBoundaryT {
     T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
 };
 
-/// Divides the light for the outgoing direction `wo`. If wo.z < 0, `wo` is inside the
-/// glass.
-/// \cost Three square roots and three divisions; fewer in total internal reflection.
-/// \report{Section 3.2.5}
+/// Divides the light for the outgoing direction `wo`.
+/// \cost Three square roots and six to eight divisions; fewer in total internal
+///       reflection.
 template <std::floating_point T>
 [[nodiscard]] GlassBoundaryT<T> boundary(const GlassT<T>& glass, const Vec3T<T>& wo,
                                          Transport transport) noexcept {
-    const bool outside = wo.z > T(0);
-    const T n_i = outside ? T(1) : glass.index;
-    const T n_t = outside ? glass.index : T(1);
+    const auto [n_i, n_t] = sides(glass, wo);
     const T eta = n_i / n_t;
     const auto refracted = refract(wo, eta);
     if (!refracted) return {};
@@ -70,9 +78,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Chooses reflection with probability F, Fresnel's reflectance, and otherwise
-/// refraction. The weight is 1. For refracted radiance it is multiplied by the factor
-/// BsdfSampleT::eta_scale.
-/// \cost Three square roots and three divisions.
+/// refraction. The weight is 1, or BsdfSampleT::eta_scale for refraction.
+/// \cost That of refract() and fresnel().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -86,8 +93,7 @@ sample(const GlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& u,
     return specular_sample(*met.refracted, RgbT<T>{T(1)}, met.eta_scale);
 }
 
-/// Returns both directions with their weights, for a path that splits in two. Such a
-/// path is free of the noise of a random choice between the directions.
+/// Both directions with their weights, for a path that splits in two.
 /// \return The reflected and the refracted sample; nothing in total internal
 ///         reflection.
 template <std::floating_point T>
@@ -125,19 +131,18 @@ void check(const GlassT<T>& glass) {
 /// \defgroup thin_glass Thin glass
 /// \brief Section 3.2.5, for a window: both boundaries of a pane as one surface.
 ///
-/// A pane is a *thin sheet*, like a soap film. Shadow rays and photons pass straight
-/// through a thin sheet and are tinted, see \ref next_vertex. The sheet scatters only
-/// the light that it reflects, and sample() returns this reflection.
+/// A pane is a *thin sheet*, like a soap film: shadow rays and photons pass straight
+/// through it and are tinted, see \ref next_vertex. sample() returns the reflection,
+/// and pass_through() the transmittance.
 /// \{
 
 /// A pane with air on both sides.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 struct ThinGlassT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    T index = T(1.5); ///< Index of refraction of the glass.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    T index = T(1.5);                           ///< Index of refraction of the glass.
     /// Transmittance of the glass between its boundaries, for one crossing at normal
     /// incidence; in [0, 1].
     RgbT<T> tint{T(1)};
@@ -153,17 +158,16 @@ struct PaneFractionsT {
 };
 
 /// The reflectance and the transmittance of a pane, with all reflections inside it.
-/// Each boundary has the reflectance R. The glass between the boundaries has the
-/// transmittance a for one crossing. Then the pane has
+/// With the reflectance R of each boundary, and the transmittance a of the glass for
+/// one crossing, they are
 ///
 /// \f[ T_\infty = (1-R)^2 a \left(1 + R^2 a^2 + R^4 a^4 + \dots\right)
 ///              = \frac{(1-R)^2 a}{1 - R^2 a^2}, \qquad
 ///     R_\infty = R + R\,a\,T_\infty \f]
 ///
-/// with a = tint^(1/c), where c is the cosine of the angle inside the glass. There is
-/// no interference, because a pane is thicker than the coherence length of light.
-/// \param cos_theta  Cosine of the angle between ray and normal outside the glass, in
-///                   [0, 1].
+/// where a = tint^(1/c), and c is the cosine inside the glass. There is no
+/// interference, because a pane is thicker than the coherence length of light.
+/// \param cos_theta  Cosine between ray and normal outside the glass, in [0, 1].
 /// \return Reflectance and transmittance. Without a tint their sum is 1.
 /// \cost That of fresnel(), and one square root; three powers if there is a tint.
 // [pane]
@@ -189,10 +193,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The transmittance of a pane. A material with this function is a thin sheet.
-/// \param pane  The pane.
-/// \param wo    Outgoing direction; unit vector in the surface's frame.
-/// \return PaneFractionsT::transmitted.
+/// The transmittance of a pane, in each channel. A material with this function is a
+/// thin sheet.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const ThinGlassT<T>& pane,
                                    const Vec3T<T>& /*position*/,
@@ -200,13 +202,7 @@ template <std::floating_point T>
     return detail::pane_fractions(pane, std::min(std::abs(wo.z), T(1))).transmitted;
 }
 
-/// Returns the mirror direction. Its weight is PaneFractionsT::reflected.
-/// \param pane   The pane.
-/// \param wo     Outgoing direction; unit vector in the surface's frame.
-/// \param which  The lobes to sample.
-/// \return The sample. Nothing if `wo` is parallel to the surface, or if `which` lacks
-///         Lobes::specular.
-/// \cost That of pane_fractions().
+/// Returns the mirror direction. Its weight is the reflectance of the pane.
 /// \report{Section 3.2.5}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -35,10 +35,17 @@ template <std::floating_point T>
     return fresnel_conductor(cos_theta, index);
 }
 
-/// The smallest roughness that is not 0. For a smaller roughness, the facets would vary
-/// so little that the rounding of a direction in float matters.
+/// The smallest roughness that is not 0. Below it, the facets would vary so little that
+/// the rounding of a direction in float matters.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
+
+/// Requires a roughness of 0 or within [min_roughness, 1].
+template <std::floating_point T>
+void require_facet_roughness(std::string_view what, T roughness) {
+    require(roughness == T(0) || (roughness >= min_roughness<T> && roughness <= T(1)),
+            what, roughness, "0, which is smooth, or within [0.01, 1]");
+}
 
 } // namespace detail
 
@@ -94,11 +101,10 @@ template <std::floating_point T, typename F>
 }
 // [glossy]
 
-/// The density of sample().
+/// The density of sample() \cite heitz2018.
 /// \return D/(2 (wo.z + r(wo))) per steradian on the side of `wo`, with D and r as in
 ///         evaluate(); 0 elsewhere. The integral is below 1, because sample() rejects
 ///         directions that point into the surface.
-/// \cite heitz2018
 template <std::floating_point T, typename F>
 [[nodiscard]] T pdf(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -110,13 +116,12 @@ template <std::floating_point T, typename F>
            (T(2) * (out.z + detail::ggx_lambda(alpha, out)));
 }
 
-/// Samples a facet that is visible from `wo`, and returns the mirror direction about
-/// its normal. The weight is F, the reflectance of the facet, times the fraction of
-/// light that no other facet blocks.
+/// Samples a facet that is visible from `wo` \cite heitz2018, and returns the mirror
+/// direction about its normal. The weight is the reflectance of the facet times the
+/// fraction of light that no other facet blocks.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
 ///         into the surface.
-/// \cost One sine, one cosine, eight square roots.
-/// \cite heitz2018
+/// \cost One sine, one cosine, nine square roots.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const GlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,
@@ -150,9 +155,7 @@ void check(const GlossyT<T, F>& gloss) {
         require_unit("glossy.reflectance", gloss.reflectance);
     else
         detail::require_conductor("glossy.reflectance", gloss.reflectance);
-    const T r = gloss.roughness;
-    require(r == T(0) || (r >= detail::min_roughness<T> && r <= T(1)),
-            "glossy.roughness", r, "0, which is a mirror, or within [0.01, 1]");
+    detail::require_facet_roughness("glossy.roughness", gloss.roughness);
 }
 
 /// \}

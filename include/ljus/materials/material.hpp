@@ -34,16 +34,14 @@ namespace ljus {
 /// `u` is a point of [0,1)^3; its z chooses a lobe. `transport` says whether the path
 /// carries radiance or flux. `which` is the set of lobes to sample, by default all.
 /// sample() returns nothing if `wo` is parallel to the surface, if the material has no
-/// lobe of `which`, or if the surface is black. The exception of check() names the
-/// wrong member.
+/// lobe of `which`, or if the surface is black.
 ///
 /// A material may have further functions. The table gives the purpose of each, and what
-/// happens without the function:
+/// happens without it:
 ///
 /// \snippet{lineno} ljus/materials/material.hpp material hooks
 ///
-/// The survey prints which of these functions each material of a scene has. Radiosity
-/// also uses diffuse_albedo(m), and treats a material without this function as black.
+/// Radiosity also uses diffuse_albedo(m), and treats a material without it as black.
 /// \{
 
 /// A set of lobes. A *specular* lobe scatters into a single direction (a delta). All
@@ -68,9 +66,7 @@ enum class Lobes : std::uint8_t {
     return static_cast<Lobes>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-/// True if a set contains at least one of the given lobes.
-/// \param set   The set.
-/// \param part  The given lobes.
+/// True if `set` contains at least one lobe of `part`.
 [[nodiscard]] constexpr bool has(Lobes set, Lobes part) noexcept {
     return (set & part) != Lobes::none;
 }
@@ -99,11 +95,8 @@ struct BsdfSampleT {
 };
 using BsdfSample = BsdfSampleT<float>; ///< BsdfSampleT in float.
 
-/// A sample of a delta lobe. Its pdf is set to 0, which marks an infinite density.
-/// \param wi         Incident direction.
-/// \param share      The fraction of light that the lobe scatters, divided by the
-///                   probability of the lobe.
-/// \param eta_scale  See BsdfSampleT::eta_scale.
+/// A sample of a delta lobe; its pdf is 0. `share` is the fraction of light that the
+/// lobe scatters, divided by the probability of the lobe.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) noexcept {
@@ -114,10 +107,8 @@ specular_sample(const Vec3T<T>& wi, const RgbT<T>& share, T eta_scale = T(1)) no
             .eta_scale = eta_scale};
 }
 
-/// A sample of a lobe with a density.
-/// \param wi       Incident direction.
-/// \param weight   The factor of the throughput: f |wi.z| / pdf.
-/// \param density  Per steradian, including the probability of the lobe.
+/// A sample of a lobe with a density. `weight` and `density` are BsdfSampleT::weight
+/// and BsdfSampleT::pdf.
 template <std::floating_point T>
 [[nodiscard]] constexpr BsdfSampleT<T>
 diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
@@ -136,8 +127,7 @@ template <OnlySpecular M>
     return Lobes::specular;
 }
 
-/// The BSDF of an OnlySpecular material, without its delta lobes.
-/// \return 0.
+/// The BSDF of an OnlySpecular material without its delta lobes: 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr RgbT<typename M::Scalar>
 evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
@@ -145,8 +135,7 @@ evaluate(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return RgbT<typename M::Scalar>{0};
 }
 
-/// The density of sample() of an OnlySpecular material, without its delta lobes.
-/// \return 0.
+/// The density of an OnlySpecular material without its delta lobes: 0.
 template <OnlySpecular M>
 [[nodiscard]] constexpr typename M::Scalar
 pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
@@ -154,7 +143,7 @@ pdf(const M&, const Vec3T<typename M::Scalar>& /*wo*/,
     return 0;
 }
 
-/// A material. Its functions are described at the top of this page, \ref bsdf.
+/// A material, with the functions of \ref bsdf.
 template <typename M>
 concept Material = std::floating_point<typename M::Scalar> &&
     requires(const M& m, const Vec3T<typename M::Scalar>& v, Transport transport,
@@ -188,16 +177,14 @@ template <MaterialWrapper M>
     return lobes(m.base);
 }
 
-/// The BSDF of the base.
-/// \return f in 1/sr, without the cosine.
+/// The BSDF of the base, in 1/sr, without the cosine.
 template <MaterialWrapper M, std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const M& m, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {
     return evaluate(m.base, wo, wi);
 }
 
-/// The density of the base's sample().
-/// \return Per steradian.
+/// The density of the base's sample(), per steradian.
 template <MaterialWrapper M, std::floating_point T>
 [[nodiscard]] T pdf(const M& m, const Vec3T<T>& wo, const Vec3T<T>& wi,
                     Lobes which = Lobes::all) noexcept {
@@ -214,8 +201,8 @@ sample(const M& m, const Vec3T<T>& wo, const Vec3T<T>& u, Transport transport,
 
 /// \}
 
-/// The absorption coefficient inside, for a material that does not provide its own.
-/// \return 0 per scene unit.
+/// The absorption coefficient inside, 0 per scene unit, for a material that does not
+/// provide its own.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
 [[nodiscard]] constexpr RgbT<typename M::Scalar> absorption(const M&) noexcept {
@@ -229,17 +216,14 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. For such a material, material_at() returns a material
-/// with a member `index`.
+/// 0 if m happens to be opaque. Its material_at() has a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
 };
 
-/// A copy of a material, for a body that touches another body instead of air. The index
-/// of the copy is relative to the index of the other body.
-/// \param m        The material.
-/// \param outside  Index of refraction of the other body.
+/// A copy of `m` for a body that touches a body of index `outside` instead of air. The
+/// index of the copy is relative to `outside`.
 template <Refractive M>
 [[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
     m.index /= outside;
@@ -247,9 +231,8 @@ template <Refractive M>
 }
 
 /// A material whose index depends on the wavelength, like glass that makes a rainbow.
-/// `at_wavelength(m, nm)` returns the material at one wavelength, given in nanometres.
-/// A path that meets such a material chooses one wavelength and keeps it. The choice is
-/// made by ljus/optics/dispersion.hpp; see \ref dispersion.
+/// `at_wavelength(m, nm)` returns the material at one wavelength in nanometres. A path
+/// that meets such a material samples one wavelength and keeps it; see \ref dispersion.
 template <typename M>
 concept Dispersive = requires(const M& m, typename M::Scalar nm) {
     at_wavelength(m, nm);
@@ -260,9 +243,8 @@ concept Dispersive = requires(const M& m, typename M::Scalar nm) {
 template <typename M>
 concept Transparent = Refractive<M> || MayAbsorb<M>;
 
-/// The priority where transparent bodies overlap, for a material that does not provide
-/// its own; see \ref nested_bodies.
-/// \return 0.
+/// The priority where transparent bodies overlap, 0, for a material that does not
+/// provide its own; see \ref nested_bodies.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
 [[nodiscard]] constexpr int priority(const M&) noexcept {
@@ -286,8 +268,7 @@ template <typename M>
         return false;
 }
 
-/// The emitted radiance of a material that does not provide its own.
-/// \return 0 W/(m^2 sr).
+/// The emitted radiance, 0 W/(m^2 sr), of a material that does not provide its own.
 template <typename M>
 requires std::floating_point<typename M::Scalar>
 [[nodiscard]] constexpr RgbT<typename M::Scalar> emission(const M&) noexcept {
@@ -295,21 +276,17 @@ requires std::floating_point<typename M::Scalar>
 }
 
 /// The material of a lamp that shows a picture on a quad or a disc.
-/// `emission_picture(m)` returns the picture. Its colour at (u, v) is multiplied by
+/// `emission_picture(m)` returns the picture, whose colour at (u, v) is multiplied by
 /// emission(). Such a lamp needs ljus/lights/picture_light.hpp.
 template <typename M>
 concept ShowsPicture = requires(const M& m) {
     emission_picture(m).pixels;
 };
 
-/// The material at a point: the result of `at_point(m, position, uv)` if the material
-/// provides that function, otherwise m itself. Renderers compute uv only for a material
-/// that declares `static constexpr bool uses_uv = true`.
-/// \param m         The material; must outlive the result.
-/// \param position  The point.
-/// \param uv        The coordinates of the point on the shape, from
-///                  texture_coordinates().
-/// \return A material to sample().
+/// The material at a point: `at_point(m, position, uv)` if the material provides that
+/// function, otherwise m itself. m must outlive the result. `uv` is from
+/// texture_coordinates(), and is (0, 0) unless the material declares
+/// `static constexpr bool uses_uv = true`.
 template <typename M>
 [[nodiscard]] constexpr decltype(auto)
 material_at(const M& m, const Vec3T<typename M::Scalar>& position,
@@ -344,11 +321,10 @@ template <std::floating_point T>
     return (a.z > T(0) && b.z > T(0)) || (a.z < T(0) && b.z < T(0));
 }
 
-/// Whether a material scatters almost like a mirror or like clear glass: it has a
-/// glossy lobe and no diffuse lobe, and a typical sample has a density above 1 per
-/// steradian. The highest density of a Lambertian surface is a third of that. A GlossyT
-/// is nearly specular if its roughness is below 0.42, and a RoughGlassT of index 1.5 if
-/// its roughness is below 0.85.
+/// Whether a material scatters almost like a mirror or clear glass: it has a glossy
+/// lobe and no diffuse lobe, and a typical sample has a density above 1 per steradian,
+/// three times the highest density of a Lambertian surface. This holds for a GlossyT of
+/// roughness below 0.42, and for a RoughGlassT of index 1.5 and roughness below 0.85.
 /// \cost One call of sample() for a material with a glossy lobe.
 template <Material M>
 [[nodiscard]] bool nearly_specular(const M& m) noexcept {
@@ -411,12 +387,8 @@ template <Material M>
 /// \{
 
 /// The density of sample_cosine_lobe().
-/// \param wo     Outgoing direction, a unit vector in the surface's frame.
-/// \param wi     Direction towards the light, a unit vector in the same frame.
-/// \param which  The lobes to sample from.
-/// \return |cos(theta)|/pi per steradian on the side of `wo`, where theta is the angle
-///         of `wi` to the normal. 0 on the other side, or if `which` lacks
-///         Lobes::diffuse.
+/// \return |wi.z|/pi per steradian on the side of `wo`; 0 on the other side, or if
+///         `which` lacks Lobes::diffuse.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_cosine_lobe(const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -425,11 +397,8 @@ template <std::floating_point T>
     return (wi.z < T(0) ? -wi.z : wi.z) * std::numbers::inv_pi_v<T>;
 }
 
-/// Samples a direction on the side of `wo`. Its density is the cosine to the normal
-/// over pi, per steradian.
-/// \param wo     Outgoing direction, a unit vector in the surface's frame.
-/// \param u      Point of [0,1)^3; z is not used.
-/// \param which  The lobes to sample from.
+/// Samples a direction on the side of `wo`, with the density pdf_cosine_lobe(). u.z is
+/// not used.
 /// \return The sample with a weight of 1, which is right for the BRDF 1/pi. A caller
 ///         with another BRDF f sets the weight to pi f. Nothing if `wo` is parallel to
 ///         the surface, or if `which` lacks Lobes::diffuse.

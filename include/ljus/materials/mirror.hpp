@@ -20,9 +20,8 @@ namespace ljus {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MirrorT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     RgbT<T> reflectance{T(1)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
@@ -58,9 +57,8 @@ void check(const MirrorT<T>& mirror) {
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 struct MetalT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     ConductorIndexT<T> index = gold<T>; ///< Complex index of refraction, per channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.

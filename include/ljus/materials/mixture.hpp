@@ -47,9 +47,9 @@ struct MixtureT {
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
 
-/// The lobes of this material. Lobes::specular is among them if the material has
-/// reflectivity, transparency or a reflecting boundary. Lobes::diffuse is among them if
-/// the matt lobe is not black, or if there is no specular lobe.
+/// The lobes of this material: Lobes::specular if it has reflectivity, transparency or
+/// a reflecting boundary; Lobes::diffuse if the matt lobe is not black, or if there is
+/// no specular lobe.
 template <std::floating_point T>
 [[nodiscard]] constexpr Lobes lobes(const MixtureT<T>& mixture) noexcept {
     const bool boundary =
@@ -64,9 +64,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The reflectance F of the boundary for a direction.
-/// \param mixture  The material. If it is opaque, both sides count as outside.
-/// \param w        Unit vector; z < 0 is inside a transparent body.
+/// The reflectance F of the boundary for the direction w. w.z < 0 is inside a
+/// transparent body; both sides of an opaque body count as outside.
 /// \return specularity times fresnel(), or 1 in total internal reflection.
 template <std::floating_point T>
 [[nodiscard]] T boundary_reflectance(const MixtureT<T>& mixture,
@@ -90,8 +89,8 @@ struct LobeFractionsT {
     }
 };
 
-/// The fraction of light for each lobe. sample() chooses a lobe in proportion to its
-/// fraction. A lobe that is not in `which` gets 0.
+/// The fraction of light for each lobe, 0 for a lobe that is not in `which`. sample()
+/// chooses a lobe in proportion to its fraction.
 template <std::floating_point T>
 [[nodiscard]] LobeFractionsT<T>
 lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noexcept {
@@ -140,7 +139,6 @@ template <std::floating_point T>
 /// the light, so that the weight is the sum of all fractions. The weight of the matt
 /// lobe has three more factors: the colour over its brightest channel, 1 minus the
 /// boundary_reflectance() for `wi`, and oren_nayar_ratio().
-/// \return The sample. Its pdf is above 0 unless it is specular.
 /// \cost One call of fresnel() for `wo`; for the matt lobe, another one for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>
@@ -188,8 +186,7 @@ template <std::floating_point T>
     return mixture.absorption;
 }
 
-/// The emitted radiance. It is the same in all directions of the emitting side.
-/// \return emissivity times color, in W/(m^2 sr).
+/// The emitted radiance, emissivity times color, in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> emission(const MixtureT<T>& mixture) noexcept {
     return mixture.emissivity * mixture.color;

@@ -44,7 +44,7 @@ template <typename Base>
 /// \name Functions of the base
 /// \{
 
-/// The result of split() for the base.
+/// As split() of the base.
 template <typename Base, std::floating_point T>
 [[nodiscard]] auto split(const Nested<Base>& nested, const Vec3T<T>& wo,
                          Transport transport) noexcept

@@ -12,8 +12,7 @@ namespace ljus {
 /// Chapter: \ref ch_textures.
 ///
 /// The picture turns only the shading normal. The geometric normal, the outlines and
-/// the shadows remain those of the shape. Chapter \ref ch_shading_normals explains how
-/// light and photons are scattered where the two normals differ.
+/// the shadows remain those of the shape.
 /// \{
 
 /// A picture of normals, for Textured. Red, green and blue are (1 + n)/2, where n is
@@ -26,9 +25,7 @@ struct NormalMapT {
 };
 using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 
-/// The shading normal that the picture of a material gives.
-/// \param mapped  The material.
-/// \param uv      From texture_coordinates().
+/// The shading normal that the picture of a material gives at `uv`.
 /// \return A normal of any length, with x along u, y along v and z outwards. It is
 ///         exactly (0, 0, 1) for the colour (0.5, 0.5, 1).
 /// \cost That of color_at() of the picture.
@@ -49,7 +46,6 @@ requires NormalMapped<Base>
 }
 
 /// Checks the picture.
-/// \throws std::invalid_argument  if the picture is not valid.
 template <std::floating_point T>
 void check(const NormalMapT<T>& map) {
     check(map.picture);

@@ -21,7 +21,7 @@ namespace ljus {
 /// \{
 
 /// A two-sided surface of matt facets with random slopes. Its shading is flatter than
-/// that of a Lambertian surface. It looks brighter when seen from the direction of the
+/// that of a Lambertian surface, and brighter when seen from the direction of the
 /// light.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -42,9 +42,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The larger of the cosines between two directions and the normal.
-/// \return At least the square of the machine epsilon of T, so that a division by the
-///         result stays finite for grazing directions.
+/// The larger of the cosines between two directions and the normal, but at least
+/// epsilon^2, so that a division by the result stays finite for grazing directions.
 template <std::floating_point T>
 [[nodiscard]] T larger_cosine(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();
@@ -57,12 +56,11 @@ template <std::floating_point T>
 ///     A = 1 - \frac{\sigma^2}{2(\sigma^2 + 0.33)}, \quad
 ///     B = \frac{0.45\,\sigma^2}{\sigma^2 + 0.09} \f]
 ///
-/// Here sigma is the roughness, phi_i and phi_o are the azimuths of wi and wo, alpha is
-/// the larger of their angles to the normal, and beta the smaller. The code computes no
-/// angles: the product of cos(phi_i - phi_o), sin(alpha) and sin(beta) is wi.x wo.x +
-/// wi.y wo.y, and a division by the larger cosine turns sin(beta) into tan(beta).
-/// \param sigma   Roughness in radians, in [0, 1000].
-/// \param wo, wi  Unit vectors on the same side.
+/// Here sigma is the roughness in radians, phi_i and phi_o are the azimuths of wi and
+/// wo, alpha is the larger of their angles to the normal, and beta the smaller. The
+/// code computes no angles: the product of cos(phi_i - phi_o), sin(alpha) and sin(beta)
+/// is wi.x wo.x + wi.y wo.y, and a division by the larger cosine turns sin(beta) into
+/// tan(beta).
 /// \return At least 1/2. Where both directions graze, up to 3e13 in float.
 /// \cost Three divisions; no trigonometric function.
 // [oren nayar]
@@ -118,8 +116,7 @@ sample(const OrenNayarT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,
 
 namespace detail {
 
-/// Requires a roughness within [0, 1000] radians.
-/// \param what  The name of the member for the message, e.g. "oren_nayar.sigma".
+/// Requires a roughness within [0, 1000] radians. `what` is the name of the member.
 template <std::floating_point T>
 void require_roughness(std::string_view what, T sigma) {
     require(sigma >= T(0) && sigma <= T(1000), what, sigma,

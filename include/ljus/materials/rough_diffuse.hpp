@@ -16,11 +16,11 @@ namespace ljus {
 /// light of a uniform sky that a white surface reflects, over all directions and
 /// roughnesses.
 enum class RoughModel : std::uint8_t {
-    /// The formula of the report's program. It reflects at most all of the light.
+    /// The formula of the report's program; reflects at most all of the light.
     as_printed,
     full,  ///< Oren and Nayar's full model of 1994; reflects up to 1.05 of the light.
     fujii, ///< Fujii's first model; reflects up to 1.03 of the light.
-    /// Fujii's second model, with a roughness in [0, 1]. It reflects at most all of the
+    /// Fujii's second model, with a roughness in [0, 1]; reflects at most all of the
     /// light.
     fon
 };
@@ -36,16 +36,12 @@ struct RoughDiffuseT {
 };
 using RoughDiffuse = RoughDiffuseT<float>; ///< RoughDiffuseT in float.
 
-/// \name The formulas as ratios to Lambert's BRDF, albedo/pi
-/// \{
-
 namespace detail {
 
-/// The formula of the report's program. Unlike oren_nayar_ratio(), it uses the cosine
-/// of the angle between wi and wo in place of that between their azimuths, has 0.57 in
-/// place of 0.33, and clamps the result to 1.
-/// \return The ratio to Lambert's BRDF, in [1/2, 1].
-/// \report{Section 3.2.1}
+/// The ratio of the formula of the report's program to Lambert's BRDF, albedo/pi.
+/// Unlike oren_nayar_ratio(), the formula uses the cosine of the angle between wi and
+/// wo in place of that between their azimuths, has 0.57 in place of 0.33, and clamps
+/// the result to 1.
 template <std::floating_point T>
 [[nodiscard]] T rough_as_printed(T sigma, const Vec3T<T>& wo,
                                  const Vec3T<T>& wi) noexcept {
@@ -58,16 +54,16 @@ template <std::floating_point T>
     return std::min(T(1), a + b * cosine * tangent);
 }
 
-/// The parts of a BRDF that are due to one and to two reflections between facets. The
-/// BRDF is (`single` * albedo + `twice` * albedo^2)/pi.
+/// The BRDF is (`single` * albedo + `twice` * albedo^2)/pi, where `single` is due to
+/// light that facets reflect once, and `twice` to light that they reflect twice.
 template <std::floating_point T>
 struct RoughRatiosT {
-    T single{}; ///< The ratio for light reflected once.
-    T twice{};  ///< The ratio for light reflected twice.
+    T single{};
+    T twice{};
 };
 
-/// The full model of 1994, equations (30) and (31) of \cite orennayar1994. The ratios
-/// for light reflected once and twice are
+/// The full model of 1994, equations (30) and (31) of \cite orennayar1994. `single` and
+/// `twice` are
 ///
 /// \f[ C_1 + \cos\phi\,C_2 \tan\beta +
 ///     (1 - |\cos\phi|)\,C_3 \tan\frac{\alpha+\beta}{2},
@@ -76,10 +72,9 @@ struct RoughRatiosT {
 ///
 /// where sigma is the roughness in radians, alpha the larger of the angles of wi and wo
 /// to the normal, beta the smaller, and phi the angle between the azimuths. The code
-/// gives C_1, C_2 and C_3.
-/// \return Both ratios. For grazing directions from opposite sides the terms cancel,
-///         and `single` has no correct digits and may be negative.
-/// \cost Two arc tangents, nine divisions.
+/// gives C_1, C_2 and C_3. For grazing directions from opposite sides the terms cancel:
+/// `single` then has no correct digits and may be negative.
+/// \cost Two arc tangents, two square roots, seven divisions.
 // [full]
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_full(T sigma, const Vec3T<T>& wo,
@@ -108,9 +103,9 @@ template <std::floating_point T>
 }
 // [full]
 
-/// Fujii's term s/t. Here s is the product of three factors: the sines of the angles of
-/// wo and wi to the normal, and the cosine of the angle between their azimuths. If s is
-/// positive, t is the larger of the two cosines to the normal, otherwise 1.
+/// Fujii's term s/t. Here s is the product of the sines of the angles of wo and wi to
+/// the normal and the cosine of the angle between their azimuths. If s is positive, t
+/// is the larger of the two cosines to the normal, otherwise 1.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>
@@ -119,9 +114,7 @@ template <std::floating_point T>
     return s > T(0) ? s / larger_cosine(wo, wi) : std::max(s, T(-1));
 }
 
-/// Fujii's first model.
-/// \return The ratios for light reflected once and twice.
-/// \cite fujii2012
+/// Fujii's first model \cite fujii2012.
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_fujii(T sigma, const Vec3T<T>& wo,
                                           const Vec3T<T>& wi) noexcept {
@@ -135,8 +128,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 inline constexpr T fon_constant = T(0.5) - T(2) / T(3) * std::numbers::inv_pi_v<T>;
 
-/// Fujii's second model, called FON by \cite eon2025.
-/// \return The ratio to Lambert's BRDF.
+/// The ratio of Fujii's second model, called FON by \cite eon2025, to Lambert's BRDF.
 /// \cost Two divisions.
 template <std::floating_point T>
 [[nodiscard]] T rough_fon(T roughness, const Vec3T<T>& wo,
@@ -146,14 +138,8 @@ template <std::floating_point T>
 }
 // [fujii]
 
-} // namespace detail
-
-/// \}
-
-namespace detail {
-
-/// Pi times the BRDF. This is the weight of a cosine-weighted sample.
-/// \return At least 0, because negative values of rough_full() are replaced by 0.
+/// Pi times the BRDF, the weight of a cosine-weighted sample. It is at least 0:
+/// negative values of rough_full() are replaced by 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> rough_weight(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
                                    const Vec3T<T>& wi) noexcept {
@@ -182,8 +168,8 @@ template <std::floating_point T>
     return Lobes::diffuse;
 }
 
-/// The BRDF, by the formula that the surface names.
-/// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
+/// The BRDF, by the formula that the surface names, in 1/sr, without the cosine; 0 if
+/// the directions lie on different sides.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> evaluate(const RoughDiffuseT<T>& surface, const Vec3T<T>& wo,
                                const Vec3T<T>& wi) noexcept {

@@ -18,17 +18,17 @@ namespace ljus {
 /// \brief Beyond the report: microfacets that reflect and refract. Chapter:
 /// \ref ch_rough_glass.
 ///
-/// Each facet is a smooth boundary \cite walter2007. Light from w_i leaves along w_o if
-/// it meets a facet that reflects or refracts w_i into w_o. The normal of this facet is
+/// Each facet is a smooth boundary \cite walter2007. The facet that reflects or
+/// refracts light from w_i into w_o has the normal
 ///
 /// \f[ h = \pm\frac{\eta\, w_o + w_i}{L}, \qquad L = |\eta\, w_o + w_i| \f]
 ///
 /// where \f$ \eta = n_o/n_i \f$ is the ratio of the indices on the sides of w_o and of
-/// w_i. For a reflection, both directions are on one side, and the ratio is 1.
+/// w_i. For a reflection the ratio is 1.
 ///
-/// The lobe has a density, so that rough glass counts as D in Heckbert's notation. A
-/// shadow ray that meets rough glass is blocked. From a vertex on rough glass, shadow
-/// rays are cast to both sides of the surface.
+/// The lobe has a density, so that rough glass counts as D in Heckbert's notation.
+/// Rough glass blocks shadow rays. From a vertex on it, shadow rays are cast to both
+/// sides of the surface.
 /// \{
 
 /// The rough boundary between a transparent body and air. The side z > 0 is air, with
@@ -49,7 +49,7 @@ namespace detail {
 
 /// Whether the facets spread refracted light by more than 2e-5 radians. The spread is
 /// about alpha |n - 1|, where n is the index. A smaller spread would vanish in the
-/// rounding of a direction in float, and the boundary is treated as smooth.
+/// rounding of a direction in float.
 template <std::floating_point T>
 [[nodiscard]] bool is_rough(const RoughGlassT<T>& glass) noexcept {
     return glass.roughness * glass.roughness * std::abs(glass.index - T(1)) > T(2e-5);
@@ -66,25 +66,11 @@ template <std::floating_point T>
     return {w.x, w.y, wo.z < T(0) ? -w.z : w.z};
 }
 
-/// The indices on both sides of a boundary, as seen from `wo`.
-template <std::floating_point T>
-struct SidesT {
-    T here = T(1);   ///< Index on the side of `wo`.
-    T beyond = T(1); ///< Index on the other side.
-};
-
-template <std::floating_point T>
-[[nodiscard]] SidesT<T> sides(const RoughGlassT<T>& glass,
-                              const Vec3T<T>& wo) noexcept {
-    if (wo.z > T(0)) return {T(1), glass.index};
-    return {glass.index, T(1)};
-}
-
-/// The density with which sample() chooses the incident direction `in`. The density of
-/// the facet h among the facets visible from `out` is multiplied by the probability of
-/// reflection or of refraction, and by the Jacobian from facets to directions. The
-/// Jacobian is 1/(4 h.out) for reflection and |h.in|/L^2 for refraction, with L of
-/// \ref rough_glass.
+/// The density with which sample() chooses the incident direction `in`. It is the
+/// density of the facet h among the facets visible from `out`, times the probability of
+/// reflection or of refraction, times the Jacobian from facets to directions. With L of
+/// \ref rough_glass, the Jacobian is |h.in|/L^2 for refraction and 1/(4 h.out) for
+/// reflection.
 /// \param alpha    The parameter of GGX.
 /// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
 /// \param n        Indices on the side of `out` and beyond.
@@ -111,12 +97,10 @@ template <std::floating_point T>
 }
 // [joined]
 
-/// The fraction of the light along `in` that no facet blocks, divided by |in.z|. The
-/// functions G1 and G2 are those of \ref microfacet. For reflection the fraction is
-/// G2/G1(out) with correlated heights, as for GlossyT. For refraction it is G1(in),
-/// because heights on the two sides are taken as independent \cite walter2007.
-/// \param alpha    The parameter of GGX.
-/// \param out, in  Outgoing and incident direction, with out.z > 0; see turned_to().
+/// The fraction of the light along `in` that no facet blocks, divided by |in.z|. With
+/// G1 and G2 of \ref microfacet, the fraction is G2/G1(out) for reflection, as for
+/// GlossyT. For refraction it is G1(in), because heights on the two sides are taken as
+/// independent \cite walter2007.
 template <std::floating_point T>
 [[nodiscard]] T unblocked(T alpha, const Vec3T<T>& out, const Vec3T<T>& in) noexcept {
     const T r_in = ggx_lambda(alpha, in);
@@ -159,7 +143,7 @@ template <std::floating_point T>
 /// Refraction is not symmetric in the two directions:
 /// \f$ f(w_o, w_i)/n_o^2 = f(w_i, w_o)/n_i^2 \f$.
 /// \return f in 1/sr, without the cosine; 0 at grazing angles where f would overflow.
-/// \cost Four square roots, including those of fresnel() and of normalisation.
+/// \cost Four square roots for refraction, five for reflection.
 /// \cite walter2007
 // [rough glass]
 template <std::floating_point T>
@@ -177,14 +161,13 @@ template <std::floating_point T>
 }
 // [rough glass]
 
-/// Chooses a facet that is visible from `wo`. The facet reflects with probability F,
-/// its Fresnel reflectance, and otherwise refracts. The weight is the fraction of light
-/// that no other facet blocks, at most 1. For refracted radiance it is multiplied by
-/// (n_o/n_i)^2, with the indices n_o on the side of `wo` and n_i on that of `wi`.
+/// Chooses a facet that is visible from `wo` \cite heitz2018, then reflection with
+/// probability F, Fresnel's reflectance of the facet, and otherwise refraction. The
+/// weight is the fraction of light that no other facet blocks, at most 1, times
+/// BsdfSampleT::eta_scale.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
 ///         points into the surface, or a refracted direction points out of it.
-/// \cost One sine, one cosine, a dozen square roots.
-/// \cite walter2007 \cite heitz2018
+/// \cost One sine, one cosine, ten square roots.
 // [sample rough glass]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
@@ -243,9 +226,7 @@ template <std::floating_point T>
 void check(const RoughGlassT<T>& glass) {
     detail::require_index("rough_glass.index", glass.index);
     require_radiance("rough_glass.absorption", glass.absorption);
-    const T r = glass.roughness;
-    require(r == T(0) || (r >= detail::min_roughness<T> && r <= T(1)),
-            "rough_glass.roughness", r, "0, which is smooth, or within [0.01, 1]");
+    detail::require_facet_roughness("rough_glass.roughness", glass.roughness);
 }
 
 /// \}

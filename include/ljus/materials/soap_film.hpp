@@ -31,9 +31,8 @@ enum class FilmColor : std::uint8_t {
 /// is `thickness` and h is `scale`.
 template <std::floating_point T>
 struct SoapFilmT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
     T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
     T scale = T(0); ///< The h of the formula, in scene units; 0: constant thickness.
@@ -54,8 +53,7 @@ inline constexpr T max_film_thickness = T(1e6);
 
 } // namespace detail
 
-/// The thickness of a film at a point.
-/// \return In nm, in [0, 1 mm].
+/// The thickness of a film at a point, in nm, within [0, 1 mm].
 template <std::floating_point T>
 [[nodiscard]] T thickness_at(const SoapFilmT<T>& film,
                              const Vec3T<T>& position) noexcept {
@@ -67,11 +65,8 @@ template <std::floating_point T>
                                                      : detail::max_film_thickness<T>;
 }
 
-/// The reflectance of a film.
-/// \param film       The film.
-/// \param cos_theta  Cosine of the angle between ray and normal, of either sign.
-/// \param thickness  In nm.
-/// \return For each channel, in [0, 1].
+/// The reflectance of a film of a thickness in nm, for each channel, in [0, 1].
+/// `cos_theta` is the cosine between ray and normal, of either sign.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> reflectance(const SoapFilmT<T>& film, T cos_theta,
                                   T thickness) noexcept {
@@ -90,29 +85,26 @@ template <std::floating_point T>
 /// A film at one point, as a material of one thickness.
 template <std::floating_point T>
 struct FilmPointT {
-    using Scalar = T; ///< The precision of its numbers.
-    /// All lobes are specular, see OnlySpecular.
-    static constexpr bool only_specular = true;
-    const SoapFilmT<T>& film; ///< The film.
-    T thickness;              ///< Thickness at the point, in nm.
+    using Scalar = T;                           ///< The precision of its numbers.
+    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    const SoapFilmT<T>& film;                   ///< The film.
+    T thickness;                                ///< Thickness at the point, in nm.
 };
 
 /// Checks nothing, because the film has been checked.
 template <std::floating_point T>
 void check(const FilmPointT<T>&) noexcept {}
 
-/// The material of a film at a point; see material_at().
-/// \param film      The film; must outlive the result.
-/// \param position  The point.
+/// The material of a film at a point; see material_at(). The film must outlive the
+/// result.
 template <std::floating_point T>
 [[nodiscard]] FilmPointT<T> at_point(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                      const Vec2T<T>& /*uv*/) noexcept {
     return {film, thickness_at(film, position)};
 }
 
-/// The transmittance of a film at a point. A material with this function is a thin
-/// sheet.
-/// \return 1 minus the reflectance, for each channel.
+/// The transmittance of a film at a point, in each channel. A material with this
+/// function is a thin sheet.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> pass_through(const SoapFilmT<T>& film, const Vec3T<T>& position,
                                    const Vec3T<T>& wo) noexcept {
@@ -144,8 +136,8 @@ template <std::floating_point T>
 void check(const SoapFilmT<T>& film) {
     require(film.thickness >= T(0) && film.thickness <= detail::max_film_thickness<T>,
             "soap_film.thickness", film.thickness, "within [0, 1e6] nm");
-    detail::require_index("soap_film.index", film.index);
-    require(film.index >= T(1), "soap_film.index", film.index, "at least 1");
+    require(film.index >= T(1) && film.index <= T(1000), "soap_film.index", film.index,
+            "within [1, 1000]");
     require(std::isfinite(film.scale) && film.scale >= T(0), "soap_film.scale",
             film.scale, "finite and at least 0");
     require_finite("soap_film.level", film.level);

@@ -11,15 +11,13 @@ namespace ljus {
 /// \defgroup textured Textured materials
 /// \brief Materials whose colour, holes or normals vary over the surface.
 ///
-/// Renderers call material_at(). For a textured material, material_at() calls
-/// at_point(), which multiplies the base by the colour of the texture at the point. The
-/// base may be textured itself.
+/// For a textured material, material_at() calls at_point(), which multiplies the base
+/// by the colour of the texture at the point. The base may be textured itself.
 /// \{
 
 /// A material whose colour is multiplied by that of a texture. Holes or a NormalMap in
-/// place of the texture leave the colour unchanged. The sample() and evaluate() of this
-/// type ignore the texture. Renderers call those of the material that material_at()
-/// returns.
+/// place of the texture leave the colour unchanged. sample() and evaluate() of this
+/// type ignore the texture; renderers call those of material_at().
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
@@ -66,9 +64,8 @@ template <typename Base, typename Texture, std::floating_point T>
 }
 // [at_point]
 
-/// The transmittance of a textured pane. The texture must depend on the position only,
-/// because a shadow ray does not compute uv.
-/// \return Transmittance for each channel, in [0, 1].
+/// The transmittance of a textured pane, in each channel. The texture must depend on
+/// the position only, because a shadow ray does not compute uv.
 template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] auto pass_through(const Textured<Base, Texture>& textured,
                                 const Vec3T<T>& position, const Vec3T<T>& wo) noexcept
@@ -82,16 +79,14 @@ template <typename Base, typename Texture, std::floating_point T>
 /// \name Functions of the base
 /// \{
 
-/// The absorption coefficient inside the base.
-/// \return Per scene unit.
+/// The absorption coefficient inside the base, per scene unit.
 template <MayAbsorb Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
 
-/// The emitted radiance of the base. The texture does not change it.
-/// \return W/(m^2 sr).
+/// The emitted radiance of the base, in W/(m^2 sr). The texture does not change it.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 emission(const Textured<Base, Texture>& m) noexcept {
@@ -101,8 +96,7 @@ emission(const Textured<Base, Texture>& m) noexcept {
 /// \}
 
 /// Checks the base and the texture.
-/// \throws std::invalid_argument if a member is not valid; the message names the
-///         member.
+/// \throws std::invalid_argument  with the name of the member that is not valid.
 template <typename Base, typename Texture>
 void check(const Textured<Base, Texture>& textured) {
     check(textured.base);

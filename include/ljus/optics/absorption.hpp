@@ -30,14 +30,13 @@ template <std::floating_point T>
             std::exp(-sigma.z * distance)};
 }
 
-/// The absorption coefficient that turns white light into a colour after a distance.
+/// The absorption coefficient that turns white light into a colour after a distance:
+/// -log(color)/distance, per scene unit.
 /// \param color     Linear colour after `distance`, each channel in (0, 1]. A channel
 ///                  of 0 would need infinite absorption.
 /// \param distance  In scene units, > 0; for a ball of glass, for example, the
 ///                  diameter.
-/// \return sigma = -log(color)/distance, per scene unit.
-/// \throws std::invalid_argument  if the colour or the distance is outside these
-///         ranges.
+/// \throws std::invalid_argument  if the colour or the distance is out of range.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> absorption_from_color(const RgbT<T>& color, T distance) {
     require_unit("absorption.color", color);

@@ -21,28 +21,21 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
-/// A Gaussian with the maximum 1. Its inverse width, in 1/nm, is `left` below the
-/// centre and `right` above the centre.
-template <std::floating_point T>
-[[nodiscard]] T piecewise_gaussian(T wavelength, T center, T left, T right) noexcept {
-    const T x = (wavelength - center) * (wavelength < center ? left : right);
-    return std::exp(-x * x / T(2));
-}
-
 } // namespace detail
 
 /// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
-/// fitted by seven Gaussians. The fit is within 0.03 of the CIE's table, whose values
-/// go up to 1.8.
+/// fitted by seven Gaussians \cite wyman2013. The fit is within 0.03 of the CIE's
+/// table, whose values go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.
-/// \cite wyman2013
 // [observer]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> cie_observer(T wavelength) noexcept {
+    // The inverse widths, in 1/nm, are `left` below the centre and `right` above it.
     const auto bell = [&](double center, double left, double right) {
-        return detail::piecewise_gaussian(wavelength, T(center), T(left), T(right));
+        const T x = (wavelength - T(center)) * T(wavelength < T(center) ? left : right);
+        return std::exp(-x * x / T(2));
     };
     return {T(0.362) * bell(442.0, 0.0624, 0.0374) +
                 T(1.056) * bell(599.8, 0.0264, 0.0323) -
@@ -54,13 +47,11 @@ template <std::floating_point T>
 }
 // [observer]
 
-/// Converts XYZ to linear sRGB. Light of equal energy at all wavelengths, X = Y = Z =
-/// 1, becomes the screen's white (1, 1, 1), so that a surface that reflects all light
-/// looks white. For this purpose X, Y and Z are multiplied by the X, Y and Z of the
-/// screen's white before the matrix of the sRGB standard is applied.
-/// \param xyz  X, Y and Z relative to light of equal energy.
-/// \return Linear sRGB. A pure colour has a negative channel, because no screen can
-///         show it.
+/// Converts XYZ, relative to light of equal energy at all wavelengths, to linear sRGB.
+/// X = Y = Z = 1 becomes the screen's white (1, 1, 1), so that a surface that reflects
+/// all light looks white. For this purpose X, Y and Z are multiplied by those of the
+/// screen's white before the matrix of the sRGB standard is applied. A pure colour has
+/// a negative channel, because no screen can show it.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
     // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); each adds up to 1.
@@ -73,12 +64,10 @@ template <std::floating_point T>
     return {row(r), row(g), row(b)};
 }
 
-/// Moves a colour into the range that a screen can show and a surface can reflect. The
-/// colour is mixed with just enough grey of the same luminance to bring all channels
-/// into [0, 1]. If the channels were clamped instead, the colour would become brighter.
-/// \param c  Linear sRGB.
-/// \return The colour, with each channel in [0, 1]. Its luminance is that of `c`,
-///         clamped to [0, 1].
+/// Moves a linear sRGB colour into the range that a screen can show and a surface can
+/// reflect. The colour is mixed with just enough grey of the same luminance to bring
+/// all channels into [0, 1]. Clamping the channels instead would change the luminance.
+/// The luminance of the result is that of `c`, clamped to [0, 1].
 // [into_gamut]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {

@@ -13,8 +13,7 @@
 namespace ljus {
 
 /// \defgroup conductor Metals
-/// \brief Fresnel's equations with a complex index, which explain the colours of
-/// metals.
+/// \brief Fresnel's equations with a complex index.
 ///
 /// The index of a metal is complex, \f$ \bar n = n + ik \f$. A wave that enters the
 /// metal decays within a fraction of its wavelength, so that no light is refracted. n
@@ -50,14 +49,13 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
 ///     R_p = R_s \left|\frac{q c - s^2}{q c + s^2}\right|^2, \quad
 ///     q = \sqrt{\bar n^2 - s^2}, \quad c = \cos\theta,\ s = \sin\theta \f]
 ///
-/// theta is the angle between the ray and the normal. The root q is computed without
-/// cancellation.
-/// \param cos_theta  Cosine between ray and normal, in [0, 1].
+/// The root q is computed without cancellation.
+/// \param cos_theta  Cosine of the angle theta between ray and normal, in [0, 1].
 /// \param n          Real part of the index, >= 0.
 /// \param k          Imaginary part of the index, >= 0. If it is 0, R is
 ///                   fresnel(cos_theta, 1, n).
 /// \return R in [0, 1].
-/// \cost Three square roots (one of them a hypot) and three divisions.
+/// \cost Two square roots (one of them a hypot) and three divisions.
 /// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}
 // [fresnel_conductor]
 template <std::floating_point T>
@@ -95,8 +93,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires an index that a metal can have. `what` is the name of the index, e.g.
-/// "metal.index".
+/// Requires an index that a metal can have. `what` is its name for the message.
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
     require_radiance(std::string(what) + ".n", index.n);

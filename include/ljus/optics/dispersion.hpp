@@ -22,8 +22,8 @@ namespace ljus {
 /// Wavelengths are in nm, in air.
 /// \{
 
-/// Sellmeier's formula for the index n at the wavelength lambda, in micrometres
-/// \cite sellmeier1871 :
+/// Sellmeier's formula \cite sellmeier1871 for the index n at the wavelength lambda, in
+/// micrometres:
 /// \f[ n^2(\lambda) = 1 + \sum_i \frac{B_i \lambda^2}{\lambda^2 - C_i} \f]
 template <std::floating_point T>
 struct SellmeierT {
@@ -42,9 +42,7 @@ struct CauchyT {
 };
 using Cauchy = CauchyT<float>; ///< CauchyT in float.
 
-/// The index of refraction by Sellmeier's formula.
-/// \param law  The medium.
-/// \param nm   The wavelength in nm, > 0.
+/// The index of refraction by Sellmeier's formula, at a wavelength in nm, > 0.
 /// \return The index; NaN if the medium is opaque at the wavelength.
 /// \cost Four divisions and a square root.
 // [refractive_index]
@@ -58,9 +56,7 @@ template <std::floating_point T>
 }
 // [refractive_index]
 
-/// The index of refraction by Cauchy's formula.
-/// \param law  The medium.
-/// \param nm   The wavelength in nm, > 0.
+/// The index of refraction by Cauchy's formula, at a wavelength in nm, > 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T refractive_index(const CauchyT<T>& law, T nm) noexcept {
     return law.a + law.b / (nm * nm * T(1e-6));
@@ -75,9 +71,8 @@ template <std::floating_point T, template <typename> typename Law>
            (refractive_index(law, line_F<T>) - refractive_index(law, line_C<T>));
 }
 
-/// Cauchy's formula for a medium with a given index and Abbe's number.
-/// \param index  n_d, the index at the d line, > 1.
-/// \param abbe   Abbe's number, > 0.
+/// Cauchy's formula for a medium with the index n_d > 1 at the d line, and Abbe's
+/// number > 0.
 // [cauchy_from_abbe]
 template <std::floating_point T>
 [[nodiscard]] constexpr CauchyT<T> cauchy_from_abbe(T index, T abbe) noexcept {
@@ -155,12 +150,12 @@ struct WavelengthTable {
 
 } // namespace detail
 
-/// The weight of a path with a single wavelength, as a colour. It is the eye's response
-/// to the wavelength, divided by pdf_wavelength().
+/// The weight of a path with a single wavelength, as a colour: the eye's response to
+/// the wavelength, divided by pdf_wavelength().
 ///
-/// The response is the wavelength's colour in linear sRGB. Pure light has a negative
-/// channel, which is set to 0. Each channel is then scaled so that a constant spectrum
-/// is white. The response and the density are constant in bands of 5 nm.
+/// The response is the wavelength's colour in linear sRGB, without its negative
+/// channel. Each channel is scaled so that a constant spectrum is white. The response
+/// and the density are constant in bands of 5 nm.
 /// \param nm  The wavelength in nm, in [360, 830].
 /// \return Three channels of at least 0 that add up to 3. The mean over
 ///         sample_wavelength() is (1, 1, 1).
@@ -169,10 +164,8 @@ template <std::floating_point T>
     return RgbT<T>(detail::wavelength_table().colors[detail::band_of(double(nm))]);
 }
 
-/// The density of sample_wavelength(): the mean over the three channels of the eye's
-/// response.
-/// \param nm  The wavelength in nm.
-/// \return The density per nm; 0 outside [360, 830].
+/// The density of sample_wavelength(), per nm: the mean over the three channels of the
+/// eye's response. It is 0 outside [360, 830] nm.
 template <std::floating_point T>
 [[nodiscard]] T pdf_wavelength(T nm) {
     const auto [first, last] = detail::visible<double>;
@@ -183,8 +176,8 @@ template <std::floating_point T>
     return T((sums[band] - before) * double(sums.size()) / (last - first));
 }
 
-/// Samples a wavelength in proportion to the eye's response.
-/// \param u  A random number in [0, 1). Nearby values give nearby wavelengths.
+/// Samples a wavelength in proportion to the eye's response. Nearby values of `u`, in
+/// [0, 1), give nearby wavelengths.
 /// \return The wavelength in nm, in [360, 830].
 /// \cost A binary search among 94 bands.
 template <std::floating_point T>

@@ -19,9 +19,9 @@ namespace ljus {
 namespace detail {
 
 /// The fraction of light that white facets lose if light is reflected only once: 1 -
-/// E(mu), where E(mu) is the fraction that they reflect \cite kulla2017. mu is the
-/// cosine between the direction of the light and the normal. The cells of the table are
-/// small near the horizon, where the loss is steep.
+/// E(mu), where E(mu) is the fraction that they reflect \cite kulla2017, and mu the
+/// cosine between the light and the normal. The cells of the table are small near the
+/// horizon, where the loss is steep.
 template <std::floating_point T>
 struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
@@ -32,8 +32,8 @@ struct EnergyLossT {
     T mean = T(0); ///< The cosine-weighted mean of the loss over the hemisphere.
 };
 
-/// The cosine at a position of the table, \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$. The
-/// position goes from 0 to EnergyLossT::cells, and s is the position divided by
+/// The cosine at a position of the table, from 0 to EnergyLossT::cells. It is \f$
+/// \alpha s^2 / (\alpha + 1 - s^2) \f$, where s is the position over
 /// EnergyLossT::cells.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {
@@ -63,7 +63,7 @@ template <std::floating_point T>
 // [lost at]
 
 /// Samples a cosine with a density proportional to the loss times the cosine. Within a
-/// cell of the table, the loss is taken as constant.
+/// cell of the table, the loss is constant.
 /// \cost A binary search and a square root.
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {
@@ -114,11 +114,10 @@ inline double energy_loss(double alpha, double mu) {
     return sum / (rows * columns);
 }
 
-/// Makes the table of the loss for one roughness. It is computed in double.
-/// \param alpha  Roughness: 0 for a mirror, otherwise in [1e-4, 1].
-/// \return The table. It is lowered so that interpolation adds no light: its values are
-///         at most 4e-4 below the loss. Only at the horizon can they be above the loss,
-///         by less than 1e-5.
+/// Makes the table of the loss for the roughness alpha: 0 for a mirror, otherwise in
+/// [1e-4, 1]. It is computed in double, and lowered so that interpolation adds no
+/// light: its values are at most 4e-4 below the loss. Only at the horizon can they be
+/// above the loss, by less than 1e-5.
 /// \cost Samples 0.6 million visible normals, in about 50 ms.
 template <std::floating_point T = float>
 [[nodiscard]] EnergyLossT<T> bake_energy_loss(T alpha) {
@@ -129,7 +128,7 @@ template <std::floating_point T = float>
     };
     for (std::size_t i = 0; i < loss.at.size(); ++i) {
         const double mu = std::max(cosine(double(i)), 1e-9);
-        const double lost = detail::energy_loss(double(alpha), mu) - 2e-4;
+        const double lost = energy_loss(double(alpha), mu) - 2e-4;
         loss.at[i] = static_cast<T>(std::max(0.0, lost));
     }
     // The mean of the table itself. The lobe of multiple scattering then returns
@@ -161,8 +160,8 @@ template <std::floating_point T = float>
 /// loses.
 ///
 /// White facets reflect the fraction E(mu) of light whose direction has the cosine mu
-/// to the normal, and lose 1 - E(mu). A second, reciprocal lobe is added to the BRDF
-/// f_1 of a single reflection and returns the loss \cite kulla2017 :
+/// to the normal, and lose 1 - E(mu). A second, reciprocal lobe returns the loss. It is
+/// added to the BRDF f_1 of a single reflection \cite kulla2017 :
 ///
 /// \f[ f = f_1 + \frac{\rho_m}{\pi}
 ///     \frac{(1 - E(\mu_i))\,(1 - E(\mu_o))}{1 - \bar E}, \qquad
@@ -171,17 +170,15 @@ template <std::floating_point T = float>
 /// \f$ \mu_i \f$ and \f$ \mu_o \f$ are the cosines of the two directions, \f$ \rho \f$
 /// is the mean reflectance of a facet, and \f$ \bar E = 2 \int E(\mu)\,\mu\,d\mu \f$ is
 /// the mean of E. For white facets the second lobe reflects exactly the light that f_1
-/// loses. EON and CompensatedGlossy use it.
+/// loses. Eon and CompensatedGlossy use it.
 /// \{
 
 namespace detail {
 
-/// The albedo rho_m of the lobe of multiple scattering.
-/// \param reflectance  Reflectance of a facet, averaged over the angles, in [0, 1].
+/// The albedo rho_m of the lobe of multiple scattering, in [0, 1]; 1 for white.
+/// \param reflectance  Mean reflectance of a facet over the angles, in [0, 1].
 /// \param loss         1 minus the mean fraction of light that white facets reflect, in
 ///                     [0, 1).
-/// \return rho_m in [0, 1]; 1 for white.
-/// \cite kulla2017
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> multiple_scattering(const RgbT<T>& reflectance, T loss) noexcept {
     return reflectance * reflectance * (T(1) - loss) /

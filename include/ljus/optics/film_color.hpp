@@ -15,6 +15,10 @@ namespace ljus {
 /// \defgroup film_color Colours of thin films
 /// \brief The reflectance of a film varies quickly with the wavelength and must be
 /// integrated over the spectrum.
+///
+/// The colours are reflectances as linear sRGB. `cos_theta` is the cosine between ray
+/// and normal outside the film, in [0, 1], `index` the index of the film, at least 1,
+/// and `thickness` is in nm, at least 0.
 /// \{
 
 /// The colour of a spectrum.
@@ -27,13 +31,13 @@ namespace ljus {
 // [spectrum color]
 template <std::floating_point T, typename Spectrum>
 [[nodiscard]] RgbT<T> spectrum_color(Spectrum spectrum, T step = T(1)) {
-    const auto count = static_cast<long long>(
-        std::ceil((detail::visible<T>[1] - detail::visible<T>[0]) / step));
-    const T h = (detail::visible<T>[1] - detail::visible<T>[0]) / static_cast<T>(count);
+    const auto [first, last] = detail::visible<T>;
+    const auto count = static_cast<long long>(std::ceil((last - first) / step));
+    const T h = (last - first) / static_cast<T>(count);
     Vec3T<T> sum{T(0)};
     Vec3T<T> white{T(0)};
     for (long long i = 0; i < count; ++i) {
-        const T wavelength = detail::visible<T>[0] + (static_cast<T>(i) + T(0.5)) * h;
+        const T wavelength = first + (static_cast<T>(i) + T(0.5)) * h;
         const Vec3T<T> eye = cie_observer(wavelength);
         sum += eye * spectrum(wavelength);
         white += eye;
@@ -42,14 +46,10 @@ template <std::floating_point T, typename Spectrum>
 }
 // [spectrum color]
 
-/// The colour of a film by integration over the spectrum. It is the reference for the
-/// other functions. The samples are so close that they resolve the fringes of the film.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, >= 1.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
-/// \cost 470 wavelengths for a film of 400 nm, and 10 000 times as many for a film of 1
-///       mm.
+/// The colour of a film by integration over the spectrum, as a reference for the other
+/// functions. The samples resolve the fringes of the film.
+/// \return It may be outside the range of a screen.
+/// \cost 470 wavelengths for a film of 400 nm, and 120 000 for a film of 1 mm.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
     const T path = thickness * std::sqrt(film_cosine2(cos_theta, index));
@@ -64,39 +64,27 @@ template <std::floating_point T>
         std::min(T(1), finest));
 }
 
-namespace detail {
-
-/// The dominant wavelengths of a screen's red, green and blue, in nm.
-template <std::floating_point T>
-inline constexpr Vec3T<T> screen_wavelengths{T(611.4), T(549.1), T(464.3)};
-
-} // namespace detail
-
-/// The colour of a film by three wavelengths, one per channel.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, > 0.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance in [0, 1] for each channel. The fringes of a thick film do
-///         not fade, although real fringes do.
+/// The colour of a film by three wavelengths: the dominant ones of a screen's red,
+/// green and blue.
+/// \return Each channel in [0, 1]. The fringes of a thick film do not fade, although
+///         real fringes do.
 /// \cost Three calls of thin_film().
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_three(T cos_theta, T index, T thickness) noexcept {
     const auto at = [&](T wavelength) {
         return thin_film(cos_theta, index, thickness, wavelength).reflected;
     };
-    const Vec3T<T>& w = detail::screen_wavelengths<T>;
-    return {at(w.x), at(w.y), at(w.z)};
+    return {at(T(611.4)), at(T(549.1)), at(T(464.3))};
 }
 
 namespace detail {
 
 /// The mean of cos(2 pi delay / wavelength) over all wavelengths, weighted by the eye's
 /// response. It is the Fourier transform of the response, which is fitted by four
-/// Gaussians over the wave number.
+/// Gaussians over the wave number \cite belcour2017.
 /// \param delay  Difference of the optical paths of two waves, in nm.
 /// \return The mean as linear sRGB: 1 for no delay, approaching 0 for a large one.
 /// \cost Four cosines and four exponentials.
-/// \cite belcour2017
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> visible_swing(T delay) noexcept {
     struct Gaussian {
@@ -130,10 +118,7 @@ template <std::floating_point T>
 /// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
 /// defines. Each cosine is replaced by its mean over the spectrum, visible_swing(). The
 /// sum ends at k = 3.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, >= 1.
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB. It may be outside the range of a screen.
+/// \return It may be outside the range of a screen.
 /// \cost Three calls of visible_swing().
 /// \cite belcour2017
 // [preintegrated]
@@ -152,7 +137,7 @@ template <std::floating_point T>
                               detail::visible_swing(T(3) * delay)};
     RgbT<T> sum{T(0)};
     for (const T r : one_surface) {
-        // The transmitted light.
+        // The sum over k.
         const RgbT<T> waves = r * (swings[0] + r * (swings[1] + r * swings[2]));
         sum += (r - (T(1) - r) * waves) / (T(1) + r);
     }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "ljus/math/require.hpp"
 #include "ljus/optics/film_color.hpp"
-#include "ljus/optics/refraction.hpp"
 
 namespace ljus {
 
@@ -15,7 +15,7 @@ namespace ljus {
 /// \{
 
 /// A table of the colours of films of one index n, over the angle of the ray and the
-/// optical path n d cos(theta_t). d is the thickness, and theta_t is the angle inside
+/// optical path n d cos(theta_t), where d is the thickness and theta_t the angle inside
 /// the film. The columns are evenly spaced in the square root of the cosine outside the
 /// film, because the reflectance is steep near grazing incidence. The rows are evenly
 /// spaced in the square root of the optical path, because fringes fade with longer
@@ -80,17 +80,15 @@ void add_cell(FilmTableT<T>& table, const RgbT<double>& color) {
 
 } // namespace detail
 
-/// Makes the table for one index. It is computed in double.
-/// \param index  The index of the films, in [1, 1000].
-/// \param size   The resolution. The default has 42 000 colours, half a megabyte in
-///               float.
+/// Makes the table for one index, in [1, 1000]. It is computed in double. The default
+/// size has 42 000 colours, half a megabyte in float.
 /// \throws std::invalid_argument  if the index or a size is out of range.
 /// \cost With the default size, it takes 10 million samples in about 0.1 s.
 template <std::floating_point T = float>
 [[nodiscard]] FilmTableT<T> bake_film_table(T index,
                                             const detail::FilmTableSize& size = {}) {
-    detail::require_index("the index of a film", index);
-    require(index >= T(1), "the index of a film", index, "at least 1");
+    require(index >= T(1) && index <= T(1000), "the index of a film", index,
+            "within [1, 1000]");
     require_at_least("cosines", size.cosines, 2);
     require_at_least("paths", size.paths, 2);
     require_positive("longest", size.longest);
@@ -129,12 +127,8 @@ template <std::floating_point T = float>
     return table;
 }
 
-/// The colour of a film, interpolated in a table. Beyond the longest optical path it is
-/// the mean over all phases.
-/// \param table      The table.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param thickness  In nm, >= 0.
-/// \return The reflectance as linear sRGB, each channel in [0, 1].
+/// The colour of a film, interpolated in a table, as linear sRGB, each channel in
+/// [0, 1]. Beyond the longest optical path it is the mean over all phases.
 /// \cost Three square roots, a division and four table entries.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> look_up(const FilmTableT<T>& table, T cos_theta,

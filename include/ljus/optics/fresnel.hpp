@@ -24,8 +24,8 @@ enum class FresnelModel : std::uint8_t {
 
 namespace detail {
 
-/// Computes ((a - b)/(a + b))^2, in [0, 1]. The form 1 - 4ab/(a + b)^2 is used where it
-/// is more precise. a and b are at least 0, and not both 0.
+/// ((a - b)/(a + b))^2, as 1 - 4ab/(a + b)^2 where that is more precise. a and b are at
+/// least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;
@@ -75,12 +75,8 @@ template <std::floating_point T>
 }
 // [fresnel]
 
-/// Schlick's approximation with the interface of fresnel().
-/// \param cos_theta_i  Cosine between incoming ray and normal, in [0, 1].
-/// \param n_i          Index on the side of the incoming ray, in [1e-9, 1e9].
-/// \param n_t          Index on the other side, in [1e-9, 1e9].
-/// \return The reflectance, in [0, 1]. Between indices 1 and 1.5 it is within 0.036 of
-///         fresnel(), for rays from either side.
+/// Schlick's approximation, with the arguments of fresnel(). Between indices 1 and 1.5
+/// it is within 0.036 of fresnel(), for rays from either side.
 /// \cost One square root if n_i > n_t, otherwise none.
 /// \report{Section 3.2.5}
 template <std::floating_point T>

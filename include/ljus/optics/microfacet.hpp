@@ -12,22 +12,18 @@
 namespace ljus {
 
 /// \defgroup microfacet Microfacets
-/// \brief Section 3.2.4: a rough surface made of small mirrors. It reflects less
-/// sharply than a mirror, and more sharply than a Lambertian surface.
+/// \brief Section 3.2.4: a rough surface made of small mirrors.
 ///
-/// The distribution of the facets' normals is GGX \cite walter2007. The normals are
-/// distributed as on an ellipsoid flattened by the factor alpha, the roughness. All
-/// directions are unit vectors in the local frame with z > 0, and alpha > 0.
+/// The normals of the facets are distributed as on an ellipsoid flattened by the factor
+/// alpha, the roughness: GGX \cite walter2007. All directions are unit vectors in the
+/// local frame with z > 0, and alpha > 0.
 /// \{
 
 namespace detail {
 
-/// The normal of the facet that reflects one direction into another. The sum of the
-/// directions is scaled before it is normalised, so that the squares of its components
-/// do not underflow.
-/// \param wo  Unit vector in the surface's frame, with z > 0.
-/// \param wi  The other unit vector, also with z > 0.
-/// \return Unit vector with z > 0.
+/// The unit normal of the facet that reflects one direction into the other. The sum of
+/// the directions is scaled before it is normalised, so that the squares of its
+/// components do not underflow.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> half_vector(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     const Vec3T<T> sum = wo + wi;
@@ -41,8 +37,7 @@ template <std::floating_point T>
 /// \f[ D(h) = \frac{1}{\pi \alpha^2 \left( h_z^2 + (h_x^2 + h_y^2)/\alpha^2 \right)^2},
 ///     \qquad \int D(h)\, h_z\, dh = 1 \f]
 ///
-/// \param alpha  Roughness. Half of the facets have a slope above alpha.
-/// \param h      Normal of the facets, a unit vector.
+/// Half of the facets have a slope above alpha.
 /// \return D(h), per steradian; at most 1/(pi alpha^2), or alpha^2/pi if alpha > 1.
 /// \cite walter2007
 template <std::floating_point T>

@@ -16,7 +16,7 @@ namespace ljus {
 /// \f[ R = 2I - D, \qquad I = D - (D \cdot N)\,N \f]
 ///
 /// D and R are the directions before and after the reflection, N is the normal, and I
-/// is the component of D along the surface. The component along N changes its sign.
+/// is the component of D along the surface.
 /// \param d  The direction in which the incoming ray *travels*, towards the surface.
 /// \param n  Unit normal; N and -N give the same R.
 /// \return The direction in which the reflected ray travels, of the length of `d`.

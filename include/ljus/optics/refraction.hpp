@@ -14,12 +14,11 @@ namespace ljus {
 /// \defgroup refraction Refraction
 /// \brief Section 3.2.5: the direction of a ray after a boundary between two media.
 ///
-/// Let \f$ \eta = n_1/n_2 \f$, where n_1 is the index of the medium that the ray leaves
-/// and n_2 the index of the medium that the ray enters. Snell's law multiplies P, the
-/// component of the direction D along the surface, by \f$ \eta \f$. The refracted
-/// direction T has unit length, which gives the cosine of the refracted ray's angle
-/// theta_2. theta_1 is the angle of the incoming ray, and N is the normal; the sign is
-/// plus if N points to the side that the ray enters:
+/// Let \f$ \eta = n_1/n_2 \f$, where the ray leaves the medium of index n_1 and enters
+/// that of index n_2. Snell's law multiplies P, the component of the direction D along
+/// the surface, by \f$ \eta \f$. The refracted direction T has unit length, which gives
+/// the cosine of its angle theta_2. theta_1 is the angle of the incoming ray, and N is
+/// the normal; the sign is plus if N points to the side that the ray enters:
 ///
 /// \f[ T = \eta P \pm N \cos\theta_2, \qquad
 ///     \cos^2\theta_2 = \cos^2\theta_1 + (1 - \eta)(1 + \eta)\,|P|^2 \f]
@@ -49,13 +48,11 @@ template <std::floating_point T>
 /// \param direction  The direction in which the ray *travels*, towards the surface;
 ///                   unit vector.
 /// \param normal     Unit normal, on either side.
-/// \param eta        n_1/n_2, > 0: index of the medium that the ray leaves over index
-///                   of the medium that the ray enters.
+/// \param eta        n_1/n_2, > 0.
 /// \return The refracted unit direction. Nothing under total internal reflection, or if
 ///         an input is NaN.
-/// \cost Two square roots, one division, two cross products by FMA. The component along
-///       the surface is a cross product, because D - (D.N)N is inaccurate near normal
-///       incidence.
+/// \cost Two square roots, one division, two cross products by FMA. P is a cross
+///       product, because D - (D.N)N is inaccurate near normal incidence.
 /// \report{Section 3.2.5}
 // [refract]
 template <std::floating_point T>
@@ -80,7 +77,7 @@ template <std::floating_point T>
 
 /// Refraction in a material's frame, where N = +z and directions point *away* from the
 /// surface.
-/// \param wo   Unit vector in the surface's frame, the outgoing direction.
+/// \param wo   Outgoing direction, a unit vector.
 /// \param eta  n_1/n_2, > 0: index on the side of `wo` over index on the other side.
 /// \return wi, the unit vector on the other side. Nothing under total internal
 ///         reflection, or if an input is NaN.
@@ -101,11 +98,9 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires an index of refraction within [0.001, 1000]. `what` is the name of the
-/// index, e.g. "glass.index".
+/// Requires an index of refraction within [0.001, 1000]. `what` is its name.
 template <std::floating_point T>
 void require_index(std::string_view what, T index) {
-    require_positive(what, index);
     require(index >= T(1e-3) && index <= T(1e3), what, index, "within [0.001, 1000]");
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/optics/schlick.hpp
-/// \brief Schlick's approximation to Fresnel's equations. This header includes no other
-/// header.
+/// \brief Schlick's approximation to Fresnel's equations.
 
 namespace ljus {
 
@@ -14,10 +13,8 @@ namespace ljus {
 ///          inside at 42 degrees, where reflection is total.}
 /// \{
 
-/// The reflectance at normal incidence.
-/// \param n1  An index of refraction, in [1e-9, 1e9].
-/// \param n2  The other index, in [1e-9, 1e9].
-/// \return ((n1 - n2)/(n1 + n2))^2, in [0, 1].
+/// The reflectance at normal incidence, ((n1 - n2)/(n1 + n2))^2, in [0, 1], of a
+/// boundary between indices n1 and n2 in [1e-9, 1e9].
 /// \report{Section 3.2.5}
 template <typename T>
 [[nodiscard]] constexpr T schlick_r0(T n1, T n2) noexcept {
@@ -29,8 +26,7 @@ template <typename T>
 ///
 /// \f[ R(\theta) = R_0 + (1 - R_0)(1 - \cos\theta)^5 \f]
 ///
-/// \param r0         R_0, the reflectance at normal incidence, in [0, 1]; see
-///                   schlick_r0().
+/// \param r0         R_0, the reflectance at normal incidence, in [0, 1].
 /// \param cos_theta  Cosine in the medium of lower index, in [0, 1].
 /// \return The reflectance, from r0 to exactly 1 at grazing incidence.
 /// \cost Seven additions and multiplications; no square root, no division.
@@ -44,9 +40,9 @@ template <typename T>
 }
 // [schlick]
 
-/// The reflectance of a boundary crossed in either direction. The function uses the
-/// cosine in the medium of lower index. It suits a caller who has both cosines;
-/// otherwise use schlick_dielectric() in fresnel.hpp.
+/// The reflectance of a boundary crossed in either direction, for a caller who has both
+/// cosines; others use schlick_dielectric(). The formula takes the cosine in the medium
+/// of lower index.
 /// \param n_i    Index on the side of the incoming ray, in [1e-9, 1e9].
 /// \param n_t    Index on the other side, in [1e-9, 1e9].
 /// \param cos_i  Cosine of the incoming ray, in [0, 1].

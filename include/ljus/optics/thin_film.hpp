@@ -13,8 +13,11 @@ namespace ljus {
 /// \defgroup thin_film Thin films
 /// \brief The soap bubble of figure 4.
 ///
-/// A film has two surfaces, which both reflect light. The wave from the second surface
-/// is delayed relative to that from the first surface, and the two waves interfere.
+/// Both surfaces of a film reflect light. The wave from the second surface is delayed,
+/// and the two waves interfere.
+///
+/// `cos_theta` is the cosine between ray and normal outside the film, in [0, 1], and
+/// `index` is the index n of the film, above 0.
 /// \{
 
 namespace detail {
@@ -28,8 +31,8 @@ struct FilmSharesT {
 } // namespace detail
 
 /// The square of \f$ n \cos\theta_t \f$, where n is the index of the film and theta_t
-/// the angle *inside* the film. It is computed without cancellation as
-/// \f$ \cos^2\theta + (n - 1)(n + 1) \f$, where theta is the angle outside.
+/// the angle *inside* the film. It is computed without cancellation from the angle
+/// theta outside, as \f$ \cos^2\theta + (n - 1)(n + 1) \f$.
 /// \return Negative if nothing is refracted into the film.
 template <std::floating_point T>
 [[nodiscard]] constexpr T film_cosine2(T cos_theta, T index) noexcept {
@@ -37,11 +40,8 @@ template <std::floating_point T>
 }
 
 /// The reflectance and transmittance of a film, averaged over the two polarisations.
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index n of the film, > 0.
-/// \param beat       \f$ q = (n^2 - 1) \sin\varphi / g \f$; see thin_film().
-/// \return R and T.
-/// \cost Four divisions.
+/// `beat` is \f$ q = (n^2 - 1) \sin\varphi / g \f$ of thin_film().
+/// \cost Five divisions.
 // [film_shares]
 template <std::floating_point T>
 [[nodiscard]] detail::FilmSharesT<T> film_shares(T cos_theta, T index,
@@ -75,7 +75,7 @@ template <std::floating_point T>
 ///     \varphi = \frac{2\pi}{\lambda}\, n\, d \cos\theta_t \f]
 ///
 /// R_1 is the reflectance of one surface, n the index, d the thickness, lambda the
-/// wavelength, and theta_t the angle inside the film.
+/// wavelength in air, in the same unit, and theta_t the angle inside the film.
 ///
 /// The function computes \f$ F \sin^2\varphi = q^2 / (4\cos^2\theta) \f$, in which
 /// nothing cancels, for the angle theta outside. For waves polarised perpendicular to
@@ -83,12 +83,8 @@ template <std::floating_point T>
 /// \f$ g = n \cos\theta_t \f$. For waves polarised parallel to this plane, q is
 /// multiplied by \f$ \cos^2\theta - \sin^2\theta/n^2 \f$. If nothing is refracted,
 /// which needs n < 1, the sine becomes hyperbolic: light tunnels through the film.
-/// \param cos_theta   Cosine between ray and normal outside the film, in [0, 1].
-/// \param index       Index of the film, > 0.
-/// \param thickness   Thickness, >= 0, in the unit of the wavelength.
-/// \param wavelength  Wavelength in air, > 0.
 /// \return R and T; R = 0 for a film without thickness.
-/// \cost A square root, a sine and five divisions.
+/// \cost A square root, a sine and seven divisions.
 /// \cite bornwolf1999
 // [thin_film]
 template <std::floating_point T>
@@ -104,12 +100,10 @@ template <std::floating_point T>
 }
 // [thin_film]
 
-/// The mean of a film's reflectance over all phases. It is the reflectance of a film
-/// too thick for interference. For each polarisation it is
-/// \f$ 1 - 1/\sqrt{1 + F} = 2R_1/(1 + R_1) \f$, with F and R_1 as for thin_film().
-/// \param cos_theta  Cosine between ray and normal outside the film, in [0, 1].
-/// \param index      Index of the film, >= 1.
-/// \return The mean, in [0, 1].
+/// The mean of a film's reflectance over all phases, in [0, 1], for an index of at
+/// least 1: the reflectance of a film too thick for interference. For each polarisation
+/// it is \f$ 1 - 1/\sqrt{1 + F} = 2R_1/(1 + R_1) \f$, with F and R_1 as for
+/// thin_film().
 template <std::floating_point T>
 [[nodiscard]] T thick_film(T cos_theta, T index) noexcept {
     const T c = cos_theta;

@@ -34,8 +34,8 @@ namespace detail {
            d * z * std::atan2(z, d);
 }
 
-// Nodes in (0, 1) and weights of the double exponential rule. This rule suits
-// integrands that behave like s ln s at an end.
+// Nodes in (0, 1) and weights of the double exponential rule, which suits integrands
+// that behave like s ln s at an end.
 struct EdgeRule {
     static constexpr int count = 49;
     std::array<double, count> place{};
@@ -59,8 +59,8 @@ struct EdgeRule {
 }
 
 // The integral over two distant edges, by Gauss's rule with six points on each edge. If
-// the distance is above six times the length of the longer edge, the rule is exact to
-// the last digit. The closed form would be a small difference of large numbers.
+// the edges are six lengths of the longer one apart, the rule is exact to the last
+// digit. The closed form would be a small difference of large numbers.
 [[nodiscard]] inline double edges_apart(const glm::dvec3& way, const glm::dvec3& u,
                                         const glm::dvec3& v, double unit) noexcept {
     constexpr std::array place{0.03376524289842397, 0.1693953067668678,
@@ -78,10 +78,10 @@ struct EdgeRule {
     return glm::dot(u, v) * sum;
 }
 
-// The integral over two parallel edges, in closed form. From the start of the first
-// edge to the start of the second, the distance is `ahead` along the second edge and
-// `d` across it. `back` is the length of the first edge, negative if the edges have
-// opposite directions. `length_v` is the length of the second edge.
+// The integral over two parallel edges, in closed form. The second edge starts at the
+// distance `ahead` from the start of the first, measured along the second edge, and `d`
+// across it. `back` is the length of the first edge, negative if the edges have
+// opposite directions, and `length_v` that of the second.
 [[nodiscard]] inline double parallel_edges(double ahead, double d, double back,
                                            double length_v, double unit) noexcept {
     const auto f = [&](double z) { return log_twice(z, d, unit); };
@@ -90,8 +90,7 @@ struct EdgeRule {
 }
 
 // Splits the first edge at the points that are closest to the ends of the second edge
-// and to its line. Returns fractions of the length of the first edge in ascending
-// order, including 0 and 1.
+// and to its line. Returns ascending fractions of the first edge, including 0 and 1.
 [[nodiscard]] inline std::array<double, 5>
 pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
                double length_u, const glm::dvec3& along) noexcept {
@@ -108,11 +107,11 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 }
 
 /// The integral of the logarithm of the distance r over two edges, times the cosine of
-/// their angle phi. The result is 0 for perpendicular edges, and has a closed form for
-/// parallel edges. In all other cases the inner integral has a closed form, and the
-/// outer integral is summed by the double exponential rule \cite takahasi1974. This
-/// rule allows singularities at the ends of an interval. The first edge is therefore
-/// split where it is close to the second.
+/// their angle phi. It is 0 for perpendicular edges, and has a closed form for parallel
+/// edges. Otherwise the inner integral has a closed form, and the outer integral is
+/// summed by the double exponential rule \cite takahasi1974. This rule allows
+/// singularities at the ends of an interval only. The first edge is therefore split
+/// where it is close to the second.
 /// \param a, u  Start and vector of the first edge.
 /// \param b, v  Start and vector of the second edge.
 /// \param unit  A length that keeps the logarithm small.
@@ -127,7 +126,7 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
     if (std::abs(cosine) < 1e-15) return 0;
     const glm::dvec3 way = b - a;
     const double longer = glm::max(length_u, length_v);
-    if (glm::length(way) > 8 * longer) return detail::edges_apart(way, u, v, unit);
+    if (glm::length(way) > 8 * longer) return edges_apart(way, u, v, unit);
     const double ahead = glm::dot(way, along);
     if (glm::length(glm::cross(u, along)) <= 1e-14 * length_u) {
         const double d = glm::length(way - ahead * along);
@@ -139,10 +138,10 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
         const glm::dvec3 from = way - s * u;
         const double z = glm::dot(from, along);
         const double d = glm::length(from - z * along);
-        return detail::log_once(z + length_v, d, unit) - detail::log_once(z, d, unit);
+        return log_once(z + length_v, d, unit) - log_once(z, d, unit);
     };
     const std::array<double, 5> ends = pieces_of_edge(way, u, v, length_u, along);
-    const detail::EdgeRule& rule = detail::edge_rule();
+    const EdgeRule& rule = edge_rule();
     double sum = 0;
     for (std::size_t piece = 1; piece < ends.size(); ++piece) {
         const double first = ends[piece - 1], step = ends[piece] - first;
@@ -197,12 +196,11 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// \addtogroup form_factor
 /// \{
 
-/// The form factor from a rectangular floor to a wall that stands on one of its edges.
+/// The form factor from a rectangular floor to a wall that stands on one of its edges;
+/// 0.2000438 for two unit squares \cite howell2010.
 /// \param edge    Length of the common edge, above 0.
 /// \param floor   Length of the floor perpendicular to this edge.
 /// \param height  Height of the wall.
-/// \return The form factor; 0.2000438 for two unit squares.
-/// \cite howell2010
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,
                                                double height) noexcept {
     const double w = floor / edge, h = height / edge;

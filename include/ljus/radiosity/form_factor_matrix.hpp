@@ -42,7 +42,7 @@ struct FormFactors {
 
 /// How form factors are computed.
 struct FormFactorSettings {
-    /// Whether the form factors between flat patches are computed by the closed form.
+    /// Whether form factors between flat patches are computed by the closed form.
     bool analytic = true;
     /// Number of rays from each patch whose form factors have no closed form.
     int rays = 256;
@@ -61,7 +61,7 @@ namespace detail {
 
 /// Scales the form factors of a closed room until each row sum is 1, and keeps the
 /// exchange areas symmetric \cite sinkhorn1967. The noise of rays then neither adds nor
-/// removes light. This matters for an albedo near 1.
+/// removes light, which matters for an albedo near 1.
 /// \return False if a patch exchanges light with no patch, or if the row sums do not
 ///         converge.
 inline bool close_rows(FormFactors& factors) {
@@ -92,9 +92,6 @@ inline bool close_rows(FormFactors& factors) {
 /// cast from each patch that is not flat. If both patches cast rays, the two results
 /// are averaged with the weights that give the least noise. Without settings.analytic,
 /// all patches cast rays.
-/// \param world     The closed scene.
-/// \param all       The patches.
-/// \param settings  The settings.
 /// \return The form factors, the same for any number of threads. Nothing if the
 ///         progress callback stopped the computation.
 /// \throws std::invalid_argument  if a number of rays is below 1, or if settings.closed
@@ -148,7 +145,7 @@ make_form_factors(const W& world, const Patches& all,
         }
     if (settings.closed)
         require(detail::close_rows(factors), "closed", 1LL,
-                "false, because a patch of the room sees no other");
+                "false: a patch sees no other, or the row sums do not converge");
     return factors;
 }
 

@@ -21,8 +21,8 @@ namespace ljus {
 /// real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
-/// Identifies the scene and the settings from which a light map was made; see
-/// light_map_key(). A saved map can only be loaded for the same key.
+/// Identifies the scene and the settings of a light map; see light_map_key(). A saved
+/// map can only be loaded for the same key.
 struct LightMapKey {
     std::uint64_t scene = 0;    ///< Hash of shapes, materials and lights.
     std::uint64_t settings = 0; ///< Hash of the settings that change the map.
@@ -85,11 +85,8 @@ cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
 
 } // namespace detail
 
-/// The irradiance at the vertices of a grid: the mean over the adjacent cells
+/// The irradiance at the vertices of a grid, in W/m^2: the mean over the adjacent cells
 /// \cite gouraud1971.
-/// \param grid        The grid.
-/// \param irradiance  The irradiance of each cell, in W/m^2.
-/// \return The irradiance at each vertex, in W/m^2.
 [[nodiscard]] inline std::vector<RgbT<double>>
 vertex_light(const PatchGrid& grid, std::span<const RgbT<double>> irradiance) {
     std::vector<RgbT<double>> sum(grid.vertices(), RgbT<double>(0));
@@ -116,10 +113,7 @@ class LightMapView {
 public:
     using Stream = RandomStream; ///< Required of a renderer, but not used.
 
-    /// Makes the renderer.
-    /// \param of    The world for which the map was made; must outlive the view.
-    /// \param map   The light map.
-    /// \param look  How the map is drawn.
+    /// Makes the renderer. The world `of` must outlive it.
     /// \throws std::invalid_argument  if the map was made for another world.
     LightMapView(WorldRef<W> of, LightMap map, const LightMapSettings& look = {})
         : world_(of), map_(std::move(map)), look_(look) {
@@ -175,11 +169,11 @@ private:
 template <typename W>
 LightMapView(const W&, LightMap, const LightMapSettings& = {}) -> LightMapView<W>;
 
-/// The irradiance at a point of a grid, interpolated between the vertices of its cell.
+/// The irradiance at a point of a grid, in W/m^2, interpolated between the vertices of
+/// its cell.
 /// \param grid      The grid.
 /// \param at        The point in the coordinates of the shape, in [0, 1]^2.
 /// \param vertices  The result of vertex_light().
-/// \return W/m^2.
 [[nodiscard]] inline RgbT<double>
 blended_light(const PatchGrid& grid, const glm::dvec2& at,
               std::span<const RgbT<double>> vertices) noexcept {

@@ -17,9 +17,8 @@ namespace ljus {
 /// \brief Section 2.2: where a patch lies on its shape, and in which patch a point
 /// lies.
 ///
-/// A point of a shape has coordinates in the unit square. On a flat shape they are u
-/// and v of a hit. On a ball they are height and azimuth, so that equal squares have
-/// equal areas.
+/// A point of a shape has coordinates in the unit square: u and v of a hit on a flat
+/// shape, height and azimuth on a ball. Equal squares then have equal areas.
 /// \{
 
 namespace detail {
@@ -97,9 +96,7 @@ struct CellPlace {
     bool upper = false;       ///< True for a triangle that stands on its tip.
 };
 
-/// The position of a cell.
-/// \param grid  The grid.
-/// \param cell  The index of the cell within the grid.
+/// The position of the cell with an index within its grid.
 [[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
                                            std::uint32_t cell) noexcept {
     if (grid.kind != detail::GridKind::triangle)
@@ -109,12 +106,11 @@ struct CellPlace {
     return {cell / 2, row, cell % 2 == 1};
 }
 
-/// The cell that contains a point of the shape.
+/// The index, within its grid, of the cell that contains a point of the shape.
 /// \param grid   The grid.
 /// \param at     The coordinates (u, v) of the point; clamped to the unit square.
 /// \param local  If not null, receives the coordinates of the point within the cell, in
 ///               [0, 1]^2.
-/// \return The index of the cell within the grid.
 [[nodiscard]] inline std::uint32_t cell_of(const PatchGrid& grid, const glm::dvec2& at,
                                            glm::dvec2* local = nullptr) noexcept {
     const double u = std::clamp(at.x, 0.0, 1.0) * grid.columns;
@@ -154,10 +150,8 @@ template <AnyWorld W, std::floating_point T>
     return {outer, inward != world.object(hit.object).inside_out};
 }
 
-/// The coordinates of a hit on its shape, in the unit square.
-/// \param kind          How the shape is divided.
-/// \param hit           The hit; used on a flat shape.
-/// \param outer_normal  The shape's own unit normal at the hit; used on a ball.
+/// The coordinates of a hit on its shape, in the unit square. `outer_normal`, the
+/// shape's own unit normal at the hit, is used on a ball only.
 template <std::floating_point T>
 [[nodiscard]] glm::dvec2 place_on(GridKind kind, const ShapeHitT<T>& hit,
                                   const Vec3T<T>& outer_normal) noexcept {
@@ -167,8 +161,8 @@ template <std::floating_point T>
     return {(1 - double(outer_normal.z)) / 2, turn < 0 ? turn + 1 : turn};
 }
 
-/// Samples a point of a cell, uniformly over its area.
-/// \return The point, with the normal of the side that the grid divides.
+/// Samples a point of a cell, uniformly over its area, with the normal of the side that
+/// the grid divides.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_cell(const PatchGrid& grid, const S& shape,
                                            std::uint32_t cell,
@@ -188,10 +182,8 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// The corners of a cell of a flat shape. The facet's normal is that of the side that
-/// the grid divides.
-/// \param whole  The corners of the shape.
-/// \param cell   The index of the cell within the grid.
+/// The cell of a flat shape with the corners `whole`. Its normal is that of the side
+/// that the grid divides.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
                                       std::uint32_t cell) noexcept {
     const CellPlace place = place_of(grid, cell);

@@ -20,10 +20,7 @@ namespace ljus {
 
 namespace detail {
 
-/// Samples a point of a patch, uniformly over its area.
-/// \param number  The index of the patch.
-/// \param u       Point of the unit square.
-/// \return The point, with the normal of the patch.
+/// Samples a point of a patch, uniformly over its area, with the normal of the patch.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_patch(const W& world, const Patches& all,
                                             std::uint32_t number, const Vec2T<T>& u) {
@@ -36,8 +33,7 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The patch that a ray has hit.
-/// \return The index of the patch; nothing if the hit side has no patches.
+/// The index of the patch that a ray has hit; nothing if the hit side has no patches.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<std::uint32_t> patch_at(const W& world, const Patches& all,
                                                     const RayT<T>& ray,
@@ -53,16 +49,9 @@ template <AnyWorld W, std::floating_point T>
 } // namespace detail
 
 /// Casts cosine-weighted rays from a patch \cite malley1988. The fraction of the rays
-/// that hit another patch is the form factor to that patch, including visibility. All
-/// rays have the same weight.
-/// \param world   The closed scene.
-/// \param all     The patches.
-/// \param number  The index of the patch.
-/// \param rays    The number of rays, at least 1.
-/// \param seed    Seed of the random streams.
-/// \param row     The exchange areas of the patch. A ray that hits patch j adds
-///                area / rays to element j, where `area` is the area of the casting
-///                patch.
+/// that hit another patch is the form factor to that patch, including visibility. A ray
+/// that hits patch j adds A/rays to element j of `row`, the exchange areas of the
+/// casting patch, whose area is A.
 // [shoot_rays]
 template <AnyWorld W>
 void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int rays,
@@ -94,31 +83,27 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
 
 namespace detail {
 
-/// The visible fraction of the exchange between two patches, by rays between random
-/// points of both patches. The weight of a ray is the product of the cosines at its
-/// ends, divided by its squared length.
-/// \param one   The index of one patch.
-/// \param two   The index of the other patch.
-/// \param rays  The number of rays, at least 1.
-/// \return In [0, 1].
+/// The visible fraction of the exchange between two patches, by `rays` >= 1 rays
+/// between random points of both. The weight of a ray is the product of the cosines at
+/// its ends, divided by its squared length.
 template <AnyWorld W>
 [[nodiscard]] double visible_fraction(const W& world, const Patches& all,
                                       std::uint32_t one, std::uint32_t two, int rays,
                                       std::uint64_t seed) {
     using T = typename W::Scalar;
-    const detail::Strata strata = detail::strata_for(rays);
+    const Strata strata = strata_for(rays);
     const std::uint64_t pair = (std::uint64_t(one) << 32) + two;
     double total = 0, visible = 0;
     for (int i = 0; i < rays; ++i) {
         RandomStream stream = random_stream(seed, Pass::form_factors, pair,
                                             static_cast<std::uint64_t>(i));
-        const Vec2T<T> u = detail::stratified(strata, i, pair, next_2d<T>(stream));
+        const Vec2T<T> u = stratified(strata, i, pair, next_2d<T>(stream));
         // The other patch has the same strata in another order.
-        const auto other = static_cast<int>(detail::shuffled(
+        const auto other = static_cast<int>(shuffled(
             static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(rays), ~pair));
-        const Vec2T<T> v = detail::stratified(strata, other, ~pair, next_2d<T>(stream));
-        const auto a = detail::sample_patch(world, all, one, u);
-        const auto b = detail::sample_patch(world, all, two, v);
+        const Vec2T<T> v = stratified(strata, other, ~pair, next_2d<T>(stream));
+        const auto a = sample_patch(world, all, one, u);
+        const auto b = sample_patch(world, all, two, v);
         const Vec3T<T> way = b.position - a.position;
         const double cosines =
             double(glm::dot(way, a.normal)) * -double(glm::dot(way, b.normal));

@@ -38,9 +38,8 @@ struct Patches {
     bool convex = true;           ///< True if nothing can lie between two patches.
     /// Sentences about objects and lights that radiosity leaves out.
     std::vector<std::string> left_out;
-    /// The grids of each object, by the type and the index of the object. Each element
-    /// has the index of the grid of the front, then that of the back. A side without
-    /// patches has no_grid.
+    /// For each object, by its type and its index: the indices of the grids of its
+    /// front and its back. A side without patches has no_grid.
     std::vector<std::vector<std::array<std::uint32_t, 2>>> grid_of;
 };
 
@@ -101,8 +100,8 @@ void each_shape(const W& world, F f) {
 }
 
 // Whether a side of a shape needs patches. A side of a flat shape does if anything in
-// the scene may lie in front of it. A ball has patches on one side only: outside, or
-// inside if the object is inside out.
+// the scene may lie in front of it. A ball has patches outside, or inside if the object
+// is inside out.
 template <AnyWorld W, typename G>
 bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out) {
     if constexpr (Flat<G>) {
@@ -123,29 +122,6 @@ bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out
     }
 }
 
-// Divides one side of an object into patches.
-template <typename S>
-void add_side(Patches& all, const S& shape, const PatchGrid& side, Patch patch,
-              std::uint32_t most) {
-    PatchGrid grid = side;
-    const double total =
-        double(all.patches.size()) + double(grid.columns) * double(grid.rows);
-    require(total <= double(most), "the number of patches", total,
-            "at most " + std::to_string(most) +
-                " (each pair has a form factor): choose larger patches");
-    grid.first = static_cast<std::uint32_t>(all.patches.size());
-    patch.grid = static_cast<std::uint32_t>(all.grids.size());
-    patch.area = double(area(shape)) / double(grid.size());
-    for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
-        if constexpr (Flat<S>) {
-            patch.facet = cell_facet(grid, facet_of(shape), cell);
-            patch.area = glm::length(area_vector(patch.facet));
-        }
-        all.patches.push_back(patch);
-    }
-    all.grids.push_back(grid);
-}
-
 // Divides the sides of a matt object for which `open` is true. Returns the indices of
 // the grids of its front and its back.
 template <typename S, std::floating_point T>
@@ -157,17 +133,33 @@ cut_sides(Patches& all, const S& shape, ObjectId id, const ObjectT<T>& object,
     for (const bool back : {false, true}) {
         if (!open[back]) continue;
         PatchGrid grid = patch_grid(shape, settings.size);
+        const double total =
+            double(all.patches.size()) + double(grid.columns) * double(grid.rows);
+        require(total <= double(settings.most), "the number of patches", total,
+                "at most " + std::to_string(settings.most) +
+                    " (each pair has a form factor): choose larger patches");
         grid.object = id;
         grid.back = back;
         grid.inward = back != object.inside_out;
+        grid.first = static_cast<std::uint32_t>(all.patches.size());
         sides[back] = static_cast<std::uint32_t>(all.grids.size());
         const double shine = back ? 0 : std::numbers::pi;
-        add_side(all, shape, grid,
-                 {.albedo = albedo, .emitted = shine * RgbT<double>(object.emission)},
-                 settings.most);
+        Patch patch{.grid = sides[back],
+                    .area = double(area(shape)) / double(grid.size()),
+                    .albedo = albedo,
+                    .emitted = shine * RgbT<double>(object.emission)};
+        for (std::uint32_t cell = 0; cell < grid.size(); ++cell) {
+            if constexpr (Flat<S>) {
+                patch.facet = cell_facet(grid, facet_of(shape), cell);
+                patch.area = glm::length(area_vector(patch.facet));
+            }
+            all.patches.push_back(patch);
+        }
+        all.grids.push_back(grid);
     }
     return sides;
 }
+
 inline void say(Patches& all, long long count, const char* one, const char* many) {
     if (count > 0)
         all.left_out.push_back(std::to_string(count).append(count == 1 ? one : many));
@@ -179,8 +171,6 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 /// patches. A flat shape has patches on each side in front of which something lies. A
 /// ball has patches outside or, if the object is inside out, inside. All other objects
 /// occlude, but reflect no light; Patches::left_out counts them.
-/// \param world     The closed scene.
-/// \param settings  The size of the patches, and their largest number.
 /// \throws std::invalid_argument  if the size is not above 0, if there are no patches
 ///         or too many, or if the scene has fog.
 /// \cost One test per pair of objects.

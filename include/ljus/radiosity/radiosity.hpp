@@ -34,13 +34,9 @@ struct Radiosity {
     LightMap map{};               ///< The irradiance of each patch, to draw and save.
 };
 
-/// The energy balance of a solution.
-/// \param patches    The patches.
-/// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, in W/m^2.
-/// \return For an exact solution, the emitted flux is the sum of the absorbed and the
-///         escaped flux, up to rounding, for any size of patches and any number of
-///         rays.
+/// The energy balance of a solution, with the radiosity of each patch in W/m^2. For an
+/// exact solution, the emitted flux is the sum of the absorbed and the escaped flux, up
+/// to rounding, for any size of patches and any number of rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -55,8 +51,7 @@ energy_balance(const Patches& patches, const FormFactors& factors,
     return sum;
 }
 
-/// The key of a light map: a hash of the scene, and a hash of the settings that change
-/// the map.
+/// The key of a light map: hashes of the scene and of the settings that change the map.
 template <AnyWorld W>
 [[nodiscard]] LightMapKey light_map_key(const W& world,
                                         const RadiositySettings& settings) {
@@ -69,12 +64,9 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution, including the light that is still unshot. The key of
-/// the map has only the hash of the scene; see light_map_key().
-/// \param world      The closed scene.
-/// \param patches    The patches.
-/// \param factors    The form factors.
-/// \param radiosity  The radiosity of each patch, in W/m^2.
+/// The light map of a solution with the radiosity of each patch in W/m^2, including the
+/// light that is still unshot. Its key has only the hash of the scene; see
+/// light_map_key().
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,
@@ -85,8 +77,6 @@ template <AnyWorld W>
 }
 
 /// Computes the radiosity of a scene, from the patches to the light map.
-/// \param world     The closed scene.
-/// \param settings  All settings.
 /// \return All results. Patches::left_out says which objects and lights are left out.
 ///         Nothing if the progress callback of the form factors stopped the
 ///         computation.

@@ -35,15 +35,16 @@ struct SolveSettings {
     /// flux, in every channel.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps.
-    /// Number of threads of RadiositySolver::jacobi, as in ParallelSettings.
+    /// Number of threads of `jacobi` and of the last residual of `lu`, as in
+    /// ParallelSettings. The other solvers use one thread.
     int threads = 0;
 };
 
 /// The radiosity of all patches.
 struct RadiositySolution {
     std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, in W/m^2.
-    /// The unshot flux divided by the emitted flux, in the channel where this fraction
-    /// is largest: at the start, and after each sweep.
+    /// The unshot flux over the emitted flux, in the channel where this is largest: at
+    /// the start, and after each sweep.
     std::vector<double> residual{};
     bool converged = true; ///< True if the tolerance was reached.
 };
@@ -78,9 +79,8 @@ inline void eliminate(std::vector<double>& a, std::vector<RgbT<double>>& b) {
     }
 }
 
-/// Solves the equations by elimination. If the albedo of every patch is grey, all
-/// channels are solved at once, otherwise one channel after the other.
-/// \return Radiosity, in W/m^2.
+/// The radiosity, in W/m^2, by elimination. If the albedo of every patch is grey, all
+/// channels are solved at once, otherwise one after the other.
 /// \cost Memory for n^2 numbers, and n^3/3 multiplications per solution, for n patches:
 ///       10 s for 3000 patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
@@ -109,9 +109,8 @@ solve_lu(const FormFactors& factors, const std::vector<Patch>& patches) {
     return radiosity;
 }
 
-/// The irradiance of all patches.
-/// \param radiosity  The radiosity of each patch, in W/m^2.
-/// \return \f$ H_i = \sum_j F_{ij} B_j \f$, in W/m^2.
+/// The irradiance of all patches, \f$H_i=\sum_j F_{ij}B_j\f$, from their radiosity B_j;
+/// both in W/m^2.
 /// \cost n^2 multiplications per channel, for n patches.
 [[nodiscard]] inline std::vector<RgbT<double>>
 multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
@@ -142,7 +141,7 @@ multiply(const FormFactors& factors, const std::vector<RgbT<double>>& radiosity,
     return share;
 }
 
-// Refuses a patch whose albedo times row sum is 1 or more, because the solution could
+// Refuses a patch whose albedo times row sum is 1 or more, because the radiosity could
 // be infinite.
 inline void require_loss(const FormFactors& factors,
                          const std::vector<Patch>& patches) {
@@ -153,30 +152,12 @@ inline void require_loss(const FormFactors& factors,
             most, "below 1: take smaller albedos, more rays, or `closed` factors");
 }
 
-/// Shoots the unshot light of all patches at once: one bounce.
-/// \param solution  The radiosity, in W/m^2. The shot light is added.
-/// \param unsent    The unshot light, in W/m^2. Receives the reflected light, which is
-///                  unshot after the bounce.
-/// \cost n^2 multiplications per channel, for n patches.
-inline void relax_all(const FormFactors& factors, const std::vector<Patch>& patches,
-                      int threads, std::vector<RgbT<double>>& solution,
-                      std::vector<RgbT<double>>& unsent) {
-    for (std::size_t i = 0; i < unsent.size(); ++i) solution[i] += unsent[i];
-    const auto arrives = multiply(factors, unsent, threads);
-    for (std::size_t i = 0; i < unsent.size(); ++i)
-        unsent[i] = patches[i].albedo * arrives[i];
-}
-
 } // namespace detail
 
-/// Shoots the unshot light of one patch to all others. The solvers gauss_seidel and
-/// shooting repeat this step in different orders.
-/// \param factors   The form factors.
-/// \param patches   The patches.
-/// \param i         The index of the patch.
-/// \param solution  The radiosity, in W/m^2. The shot light is added to element i.
-/// \param unsent    The unshot light, in W/m^2. Element i becomes 0; the others receive
-///                  the light that their patches reflect.
+/// Shoots the unshot light of patch i to all others. The solvers gauss_seidel and
+/// shooting repeat this step in different orders. Element i of `solution`, the
+/// radiosity in W/m^2, grows by the shot light. Element i of `unsent`, the unshot light
+/// in W/m^2, becomes 0; the others grow by the light that their patches reflect.
 /// \cost n multiplications per channel, for n patches.
 // [relax]
 inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& patches,
@@ -192,10 +173,8 @@ inline void relax_patch(const FormFactors& factors, const std::vector<Patch>& pa
 }
 // [relax]
 
-/// The patch with the most unshot flux.
-/// \param factors  The form factors.
-/// \param unsent   The unshot light of each patch, in W/m^2.
-/// \return The index of the patch; the first index if several patches have the most.
+/// The index of the patch with the most unshot flux; the first if several have the
+/// most. `unsent` is the unshot light of each patch, in W/m^2.
 [[nodiscard]] inline std::size_t
 brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& unsent) {
     std::size_t best = 0;
@@ -212,11 +191,8 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 ///
 /// All solvers except `lu` start with a radiosity of 0 and with all emitted light
 /// unshot. A sweep of jacobi or gauss_seidel multiplies the unshot light by at most the
-/// largest albedo rho. For a tolerance epsilon, log(epsilon)/log(rho) sweeps are
-/// therefore enough.
-/// \param factors   The form factors.
-/// \param patches   The patches.
-/// \param settings  The solver, and when it stops.
+/// largest albedo rho, so that log(epsilon)/log(rho) sweeps are enough for a tolerance
+/// epsilon.
 /// \return The radiosity, and the unshot flux after each sweep.
 /// \throws std::invalid_argument  if the albedo of a patch times its row sum is not
 ///         below 1. This happens for an albedo of 1 in a closed room, or if the noise
@@ -248,9 +224,14 @@ solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
         return solution;
     }
     const auto sweep = [&] {
-        if (settings.solver == RadiositySolver::jacobi)
-            return detail::relax_all(factors, patches, settings.threads,
-                                     solution.radiosity, unsent);
+        if (settings.solver == RadiositySolver::jacobi) {
+            const auto arrives = detail::multiply(factors, unsent, settings.threads);
+            for (std::size_t i = 0; i < n; ++i) {
+                solution.radiosity[i] += unsent[i];
+                unsent[i] = patches[i].albedo * arrives[i];
+            }
+            return;
+        }
         const bool shoot = settings.solver == RadiositySolver::shooting;
         for (std::size_t step = 0; step < n; ++step)
             relax_patch(factors, patches,

@@ -23,8 +23,7 @@ using CornellSceneT = Scene<Shapes<QuadT<T>, SphereT<T>>,
 
 /// Adds five walls of a box from (-1, 0, -1) to (1, 2, 1), with normals inwards. The
 /// side towards the camera is open. The left wall is red, the right wall is green, and
-/// the others are white.
-/// \param scene  A scene with quads and Lambertian materials.
+/// the others are white. The scene must list quads and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_cornell_walls(S& scene) {
     const MaterialId white = scene.add(LambertianT<T>{.albedo = RgbT<T>{T(0.75)}});

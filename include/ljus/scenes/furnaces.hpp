@@ -21,11 +21,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The scene type of a room inside a sphere.
 template <std::floating_point T>
 using SphereFurnaceT = Scene<Shapes<SphereT<T>>, Materials<LambertianT<T>>>;
-
-/// The scene type of a room inside a box.
 template <std::floating_point T>
 using BoxFurnaceT = Scene<Shapes<QuadT<T>>, Materials<LambertianT<T>>>;
 
@@ -39,11 +36,8 @@ CameraT<T> furnace_camera() {
 
 } // namespace detail
 
-/// A furnace inside the sphere of radius 1 around the origin. Its only lamp is the wall
-/// itself.
-/// \param emission  Emission of the wall, in W/(m^2 sr).
-/// \param albedo    Albedo of the wall, below 1.
-/// \return The scene, and a camera inside.
+/// A furnace inside the sphere of radius 1 around the origin, with the emission of its
+/// wall in W/(m^2 sr), and an albedo below 1. Its only lamp is the wall itself.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not
 ///         within [0, 1].
 template <std::floating_point T>
@@ -55,11 +49,9 @@ template <std::floating_point T>
     return {World(std::move(scene)), detail::furnace_camera<T>()};
 }
 
-/// A furnace inside the cube of side 2 around the origin. Near an edge the glowing
-/// walls are so close that only multiple importance sampling bounds the noise.
-/// \param emission  Emission of the walls, in W/(m^2 sr).
-/// \param albedo    Albedo of the walls, below 1.
-/// \return The scene, and a camera inside.
+/// A furnace inside the cube of side 2 around the origin, with the emission of its
+/// walls in W/(m^2 sr), and an albedo below 1. Near an edge the glowing walls are so
+/// close that only multiple importance sampling bounds the noise.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not
 ///         within [0, 1].
 template <std::floating_point T>

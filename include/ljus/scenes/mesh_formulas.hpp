@@ -56,8 +56,8 @@ struct UnitTriangles {
     return solid;
 }
 
-// Splits each triangle into four at the midpoints of its edges. The midpoints are then
-// moved onto the sphere.
+// Splits each triangle into four at the midpoints of its edges, which are moved onto
+// the sphere.
 inline void cut_in_four(UnitTriangles& mesh) {
     using Triple = UnitTriangles::Triple;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -80,11 +80,9 @@ inline void cut_in_four(UnitTriangles& mesh) {
 
 } // namespace detail
 
-/// A sphere made of triangles. Each triangle of an icosahedron is split into four
-/// repeatedly. The vertices lie on the sphere and have the sphere's normals.
-/// \param sphere  A valid sphere.
-/// \param cuts    The number of splits, 0 to 10; the mesh has 20 * 4^cuts triangles.
-/// \return The data of the mesh.
+/// A sphere made of triangles. Each triangle of an icosahedron is split into four,
+/// `cuts` times, which makes 20 * 4^cuts triangles. The vertices lie on the sphere and
+/// have the sphere's normals.
 /// \throws std::invalid_argument  if `cuts` is not within [0, 10].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> icosphere(const SphereT<T>& sphere, int cuts) {
@@ -108,15 +106,14 @@ template <std::floating_point T>
 ///                has a hole.
 /// \param around  Segments around the axis, 3 to 10000.
 /// \param across  Segments around the tube, 3 to 10000.
-/// \return The data of the mesh, with 2 * around * across triangles.
+/// \return A mesh with 2 * around * across triangles.
 /// \throws std::invalid_argument  if a number of segments is not within [3, 10000].
 template <std::floating_point T>
 [[nodiscard]] MeshDataT<T> torus(const Vec3T<T>& center, T large, T small, int around,
                                  int across) {
-    require(around >= 3 && around <= 10000 && across >= 3 && across <= 10000,
-            "the smaller number of segments",
-            static_cast<long long>(around < across ? around : across),
-            "within [3, 10000]");
+    for (const long long segments : {around, across})
+        require(segments >= 3 && segments <= 10000, "the number of segments", segments,
+                "within [3, 10000]");
     MeshDataT<T> data;
     const auto number = [&](int i, int k) {
         return static_cast<std::uint32_t>((i % around) * across + k % across);

@@ -45,12 +45,8 @@ LambertianT<T> report_matt(T red, T green, T blue) {
 } // namespace detail
 
 /// Adds one of the report's lamps: a black square that shines down, 0.001 below the
-/// ceiling.
-/// \param scene  A scene with quads and Lambertian materials.
-/// \param x      The smallest x of the lamp.
-/// \param y      The smallest y of the lamp.
-/// \param size   Length of the lamp's sides, in scene units.
-/// \param color  The lamp's radiance divided by 30, in W/(m^2 sr).
+/// ceiling. Its smallest coordinates are (x, y), and its sides are `size` long. `color`
+/// is the lamp's radiance divided by 30, in W/(m^2 sr).
 template <typename S, std::floating_point T>
 void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
     scene.add(QuadT<T>{.corner{x, y, T(4.999)},
@@ -60,8 +56,7 @@ void add_ceiling_lamp(S& scene, T x, T y, T size, const RgbT<T>& color) {
 }
 
 /// Adds the report's room: floor, ceiling and the four visible walls. All are matt and
-/// have normals inwards.
-/// \param scene  A scene with quads, triangles and Lambertian materials.
+/// have normals inwards. The scene must list quads, triangles and Lambertian materials.
 template <typename S, std::floating_point T = typename S::Scalar>
 void add_report_room(S& scene) {
     // The outline of the floor, from the left corner near the camera to the right one.
@@ -129,9 +124,9 @@ using ReportSceneT =
 
 namespace detail {
 
-// The report's program multiplies by the colour at both boundaries. A path through the
-// centre of a ball is thus multiplied by the square of the colour. Half of that path,
-// one radius, is multiplied by the colour itself.
+// The report's program multiplies by the colour at both boundaries. Light through the
+// centre of a ball is thus multiplied by the square of the colour, and by the colour
+// itself along one radius.
 template <std::floating_point T>
 RgbT<T> report_absorption(const RgbT<T>& color, T radius) {
     return absorption_from_color(glm::max(color, RgbT<T>{T(0.05)}), radius);
@@ -219,9 +214,9 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figures 11 and 13, with one lamp and four glass balls. No stored version
-/// of the report's program contains this room. Two of the balls were therefore
-/// estimated from the report's picture.
+/// The room of figures 11 and 13, with one lamp and four glass balls. Two of the balls
+/// were estimated from the report's picture, because no stored version of the report's
+/// program contains this room.
 /// \report{Figures 11 and 13, Tables 2 and 4}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> four_glass_room() {
