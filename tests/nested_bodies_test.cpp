@@ -27,6 +27,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/nested.hpp"
+#include "ljus/materials/normal_map.hpp"
 #include "ljus/materials/rough_glass.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -407,6 +408,43 @@ TEST_CASE("nested bodies: priorities without an overlap change no byte") {
     const auto plain = picture(clear, red);
     CHECK(picture(Nested<Glass>{clear, 1}, Nested<Glass>{red, 2}) == plain);
     CHECK(picture(Nested<Glass>{clear}, Nested<Glass>{red}) == plain);
+}
+
+TEST_CASE("nested bodies: a normal map changes neither index nor priority") {
+    using Dented = Textured<Glass, NormalMap>;
+    using Over = Textured<Nested<Glass>, NormalMap>;
+    const auto picture = [](const auto& glass, double water_from) {
+        Scene<Shapes<Quad>,
+              Materials<Glass, Nested<Glass>, Dented, Nested<Dented>, Over>,
+              Lights<EnvironmentLight>>
+            scene;
+        const auto water =
+            scene.add(Nested<Glass>{{.index = 1.33f, .absorption = Rgb{0.1f}}, 1});
+        const auto other = scene.add(glass);
+        scene.add(face(float(water_from), false), water);
+        scene.add(face(2.0f, true), water);
+        scene.add(face(0.0f, false), other);
+        scene.add(face(1.0f, true), other);
+        scene.add(sky<float>());
+        const World world(std::move(scene));
+        return render(PathTracer(world),
+                      look_at({.position{-2, 1, 0.3f}, .target{0.5f, 0, 0}}),
+                      {.width = 16, .height = 16, .samples = 4})
+            .image.pixels;
+    };
+    const Glass glass{.index = 1.5f, .absorption{0.2f, 0.1f, 0}};
+    const NormalMap flat{{.image = make_image(1, 1, Rgb{0.5f, 0.5f, 1})}};
+    const auto overlapping = picture(Nested<Glass>{glass, 2}, 0.5);
+    CHECK(overlapping != picture(Nested<Glass>{glass, 0}, 0.5));
+    CHECK(picture(Nested<Dented>{{glass, flat}, 2}, 0.5) == overlapping);
+    CHECK(picture(Over{{glass, 2}, flat}, 0.5) == overlapping);
+    const auto in_contact = picture(glass, 1);
+    CHECK(picture(Dented{glass, flat}, 1) == in_contact);
+
+    const NormalMap slope{{.image = make_image(1, 1, Rgb{0.7f, 0.5f, 0.9f})}};
+    CHECK(picture(Nested<Dented>{{glass, slope}, 2}, 0.5) ==
+          picture(Over{{glass, 2}, slope}, 0.5));
+    CHECK(picture(Nested<Dented>{{glass, slope}, 2}, 0.5) != overlapping);
 }
 
 TEST_CASE("nested bodies: shadow rays pass what is hidden") {

@@ -74,3 +74,14 @@ ljus_break_it(NAME nested_bodies-photons HEADER photons/photon_path.hpp
     FROM "continue_path(path, vertex, material, Transport::flux, which, stream)"
     TO   "continue_path(path, vertex, material, Transport::radiance, which, stream)"
     CASES "nested bodies: photons bring*")
+
+# A texture over glass hides its index of refraction, or its priority.
+ljus_break_it(NAME nested-textured-index HEADER materials/textured.hpp TEST nested_bodies
+    FROM "return refractive_index(m.base);"
+    TO   "return 0 * refractive_index(m.base);"
+    CASES "nested bodies: a normal map*")
+ljus_break_it(NAME nested-textured-priority HEADER materials/textured.hpp
+    TEST nested_bodies
+    FROM "return priority(m.base);"
+    TO   "return 0 * priority(m.base);"
+    CASES "nested bodies: a normal map*")

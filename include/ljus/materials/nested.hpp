@@ -21,6 +21,7 @@ requires Transparent<Base>
 struct Nested {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
     static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
+    static constexpr bool uses_uv = UsesUv<Base>;  ///< True if the base uses uv.
     Base base{};                                   ///< The material.
     /// Where bodies overlap, the body with the highest priority fills the space. A
     /// material that is not Nested has priority 0.
@@ -69,6 +70,13 @@ template <typename Base>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
 absorption(const Nested<Base>& nested) noexcept {
     return absorption(nested.base);
+}
+
+/// The shading normal of a base with a normal map.
+template <NormalMapped Base, std::floating_point T>
+[[nodiscard]] Vec3T<T> normal_at(const Nested<Base>& nested,
+                                 const Vec2T<T>& uv) noexcept {
+    return normal_at(nested.base, uv);
 }
 
 /// The emitted radiance of the base, in W/(m^2 sr).

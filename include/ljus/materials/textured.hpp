@@ -86,6 +86,19 @@ absorption(const Textured<Base, Texture>& m) noexcept {
     return absorption(m.base);
 }
 
+/// The index of refraction inside; 0 if the base is opaque.
+template <Refractive Base, typename Texture>
+[[nodiscard]] constexpr auto
+refractive_index(const Textured<Base, Texture>& m) noexcept {
+    return refractive_index(m.base);
+}
+
+/// The priority of the base where bodies overlap.
+template <HasPriority Base, typename Texture>
+[[nodiscard]] constexpr int priority(const Textured<Base, Texture>& m) noexcept {
+    return priority(m.base);
+}
+
 /// The emitted radiance of the base, in W/(m^2 sr). The texture does not change it.
 template <typename Base, typename Texture>
 [[nodiscard]] constexpr RgbT<typename Base::Scalar>
