@@ -19,6 +19,8 @@
 #include <limits>
 #include <utility>
 
+#include <glm/packing.hpp>
+
 #include "ljus/image/layer.hpp"
 #include "ljus/io/detail/picture_size.hpp"
 #include "ljus/io/detail/srgb_primaries.hpp"
@@ -73,23 +75,10 @@ inline exr_context_initializer_t exr_settings(void* data) {
     return settings;
 }
 
-// The float with the value of a half, which is given by its bits. NaN and infinity are
-// kept.
-inline float float_of_half(std::uint32_t half) {
-    const std::uint32_t sign = (half & 0x8000u) << 16;
-    const std::uint32_t exponent = half >> 10 & 31u, mantissa = half & 1023u;
-    if (exponent == 0) { // denormal: a multiple of 2^-24
-        const float size = static_cast<float>(mantissa) / 16777216;
-        return sign != 0 ? -size : size;
-    }
-    const std::uint32_t biased = exponent == 31 ? 255 : exponent + 112;
-    return std::bit_cast<float>(sign | biased << 23 | mantissa << 13);
-}
-
 // Reads a number, whose lowest byte comes first.
 inline float exr_number(const unsigned char* bytes, std::uint16_t type) {
     std::uint32_t bits = bytes[0] | std::uint32_t(bytes[1]) << 8;
-    if (type == EXR_PIXEL_HALF) return float_of_half(bits);
+    if (type == EXR_PIXEL_HALF) return glm::unpackHalf2x16(bits).x;
     bits |= std::uint32_t(bytes[2]) << 16 | std::uint32_t(bytes[3]) << 24;
     return type == EXR_PIXEL_UINT ? static_cast<float>(bits)
                                   : std::bit_cast<float>(bits);

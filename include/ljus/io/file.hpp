@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -39,6 +38,12 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
+// Throws an error about the content of a file, such as "a.ply: it ends early."
+[[noreturn, gnu::cold]] inline void refuse_file(const std::string& path,
+                                                std::string_view why) {
+    throw std::runtime_error(join({shown_path(path), ": ", why, "."}));
+}
+
 // Refuses a file that does not begin with certain bytes.
 inline void require_beginning(std::string_view text, std::string_view begin,
                               const std::string& path) {
@@ -56,19 +61,6 @@ inline std::string folder_of(const std::string& path) {
 // folder of that other file.
 inline std::string path_beside(const std::string& file, const std::string& name) {
     return name.starts_with('/') ? name : folder_of(file) + name;
-}
-
-// A path that is the same for all names and links of a file; the path itself if the
-// file does not exist.
-inline std::string one_path(const std::string& path) {
-#if __has_include(<unistd.h>)
-    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
-        const std::string found = resolved;
-        std::free(resolved);
-        return found;
-    }
-#endif
-    return path;
 }
 
 } // namespace detail
@@ -96,11 +88,9 @@ public:
     /// A hash of the contents of all files so far, in the order of reading. Names have
     /// no influence on it, but a missing file has.
     [[nodiscard]] std::uint64_t hash() const noexcept {
-        std::uint64_t all = detail::fnv_start;
-        for (const File& file : files_)
-            for (const unsigned char byte : detail::bytes_of(file.hash))
-                all = detail::fnv_hash(all, byte);
-        return all;
+        detail::FieldHash all;
+        for (const File& file : files_) all.add(file.hash);
+        return all.value;
     }
 
 private:

@@ -115,7 +115,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     file.require_left(patches, detail::light_bytes, "patches");
     for (std::size_t i = 0; i < patches; ++i) {
         const auto light = file.take_vector<RgbT<double>>();
-        const double least = std::min(light.x, std::min(light.y, light.z));
+        const double least = std::min({light.x, light.y, light.z});
         if (!is_finite(light) || !(least >= 0))
             file.refuse("it has irradiance that is not finite or is below 0");
         map.irradiance.push_back(light);

@@ -47,8 +47,7 @@ struct IesReader {
 
     /// Throws an exception that names the file and the current line.
     [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
-        throw std::runtime_error(
-            join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
+        refuse_file(file, join({"line ", to_text(line), ": ", why}));
     }
     std::string_view take() {
         ++line;

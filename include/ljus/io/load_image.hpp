@@ -161,7 +161,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
         refuse(join({"is damaged: ", why}));
-    if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
+    if (png && stands_at(bytes, 12, "CgBI"))
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
     const std::string says = png    ? png_other_colors(bytes, unpack_profile)
@@ -190,7 +190,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
             refuse(why);
     };
     // stb_image would call a PNG file damaged that is only too large.
-    if (png && png_number(bytes, 12) == 0x49484452u)
+    if (png && stands_at(bytes, 12, "IHDR"))
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
     if (png) picture.gamma = png_gamma(bytes);
@@ -220,7 +220,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // may quote bytes of the file
-    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error", 48)}));
+    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error")}));
     return picture;
 }
 #endif

@@ -120,8 +120,7 @@ void read_image_size(const JsonField& field, LoadedSceneT<T>& loaded) {
     loaded.width = static_cast<int>(in.number("width"));
     loaded.height = static_cast<int>(in.number("height"));
     if (loaded.width > max_pixels / loaded.height)
-        refuse(field, std::string("has more than ").append(std::to_string(max_pixels)) +
-                          " pixels");
+        refuse(field, join({"has more than ", to_text(max_pixels), " pixels"}));
     if (in.has("pixel_filter") && text(in["pixel_filter"]).substr(0, 3) != "box")
         refuse_value(in["pixel_filter"],
                      "\"box\", the only filter that scene files support");
@@ -150,9 +149,8 @@ inline void require_lights(const JsonField& objects, std::size_t lights) {
         refuse(objects, "has no light; give an object an emission above 0, or add a "
                         "list of lights");
     if (lights > 65535)
-        refuse(objects, std::string("has ")
-                            .append(std::to_string(lights))
-                            .append(" lights; it must have at most 65535"));
+        refuse(objects, join({"has ", std::to_string(lights),
+                              " lights; it must have at most 65535"}));
 }
 
 template <std::floating_point T, typename LoadMeshes>
@@ -166,18 +164,13 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     const auto materials = read_materials(in["materials"], loaded.scene);
     const LampGroups groups =
         in.has("lamp_groups") ? LampGroups(in["lamp_groups"]) : LampGroups();
-    const JsonField objects = in["objects"];
     FileMeshesT<T> meshes;
-    for (std::size_t i = 0; i < list_size(objects); ++i)
-        read_object(entry(objects, i), materials, groups, loaded.scene, meshes,
-                    load_meshes);
-    if (in.has("lights"))
-        for (std::size_t i = 0; i < list_size(in["lights"]); ++i)
-            read_light(entry(in["lights"], i), groups, loaded.scene, load_meshes);
-    if (in.has("fog"))
-        for (std::size_t i = 0; i < list_size(in["fog"]); ++i)
-            read_fog(entry(in["fog"], i), loaded.scene);
-    require_lights(objects, loaded.scene.light_count());
+    for (const JsonField& object : entries(in["objects"]))
+        read_object(object, materials, groups, loaded.scene, meshes, load_meshes);
+    for (const JsonField& light : entries(find(top, "lights")))
+        read_light(light, groups, loaded.scene, load_meshes);
+    for (const JsonField& fog : entries(find(top, "fog"))) read_fog(fog, loaded.scene);
+    require_lights(in["objects"], loaded.scene.light_count());
     return loaded;
 }
 

@@ -28,9 +28,8 @@ template <std::floating_point T = float>
     if (is(".ply")) return load_ply<T>(path, settings);
     if (is(".stl")) return load_stl<T>(path, settings);
     if (is(".gltf") || is(".glb")) return load_gltf<T>(path, settings);
-    throw std::runtime_error(
-        shown_path(path) + ": the name of a mesh file ends in .obj, .ply, .stl, .gltf "
-                           "or .glb.");
+    detail::refuse_file(
+        path, "the name of a mesh file ends in .obj, .ply, .stl, .gltf or .glb");
 }
 
 /// Reads the mesh files that a scene file names: load_json("scene.json", MeshFiles{}).

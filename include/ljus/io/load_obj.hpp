@@ -305,7 +305,7 @@ private:
             mesh_.add_normal(three_numbers(words));
         else if (keyword == "vt")
             texture(words);
-        else if (keyword == "f" || keyword == "fo") // in old files
+        else if (keyword == "f")
             face(words);
         else if (keyword == "usemtl")
             use(words.name());
@@ -317,8 +317,7 @@ private:
             ++mesh_.report.content.objects;
         else if (keyword == "g")
             ++mesh_.report.content.groups;
-        else if (is_one_of(keyword, {"l", "p", "curv", "curv2", "surf", "bsp", "bzp",
-                                     "cdc", "cdp"}))
+        else if (is_one_of(keyword, no_faces))
             mesh_.report.add(MeshTrouble::no_face, mesh_.place);
         else if (!is_one_of(keyword, without_effect))
             unused_.add(keyword, mesh_.place);
@@ -371,12 +370,13 @@ private:
         mesh_.end_face();
     }
 
-    // Keywords of curves, and of the way in which other programs draw faces.
+    static constexpr std::string_view no_faces[]{"l", "p", "curv", "curv2", "surf"};
+    // Keywords within curves and surfaces, and settings for displays.
     static constexpr std::string_view without_effect[]{
-        "",       "vp",     "cstype",     "deg",      "bmat", "step",  "parm",
-        "trim",   "hole",   "scrv",       "sp",       "end",  "con",   "res",
-        "mg",     "bevel",  "c_interp",   "d_interp", "lod",  "ctech", "stech",
-        "maplib", "usemap", "shadow_obj", "trace_obj"};
+        "",      "vp",    "cstype", "deg",      "bmat",       "step",
+        "parm",  "trim",  "hole",   "scrv",     "sp",         "end",
+        "con",   "mg",    "bevel",  "c_interp", "d_interp",   "lod",
+        "ctech", "stech", "maplib", "usemap",   "shadow_obj", "trace_obj"};
 
     const std::string& file_; // the path; material files are in its folder
     UnusedLines unused_{};

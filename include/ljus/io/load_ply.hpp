@@ -73,9 +73,7 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view why) const {
-        throw std::runtime_error(join({shown_path(file_), ": ", why, "."}));
-    }
+    [[noreturn]] void refuse(std::string_view why) const { refuse_file(file_, why); }
 
     PlyType type_of(std::string_view name) const {
         for (const PlyType& type : ply_types)

@@ -135,14 +135,9 @@ struct MeshReport {
     std::string text;
     for (std::size_t i = 0; i < detail::mesh_troubles; ++i)
         if (report.counts[i].count > 0)
-            text.append(report.unit)
-                .append(" ")
-                .append(std::to_string(report.counts[i].line))
-                .append(": ")
-                .append(std::to_string(report.counts[i].count))
-                .append(" ")
-                .append(words[i])
-                .append(".\n");
+            text +=
+                detail::join({report.unit, " ", to_text(report.counts[i].line), ": ",
+                              to_text(report.counts[i].count), " ", words[i], ".\n"});
     for (const std::string& note : report.notes) text.append(note).append("\n");
     return text;
 }

@@ -94,7 +94,7 @@ arrays_of(const PhotonMap& map) noexcept {
 // The checksum of a map. It includes the header, except the checksum itself.
 [[nodiscard]] inline std::uint64_t map_checksum(const Bytes& front,
                                                 const PhotonMap& map, int threads) {
-    std::uint64_t all = checksum(front);
+    FieldHash all{checksum(front)};
     for (const auto& array : arrays_of(map)) {
         std::vector<std::uint64_t> sums((array.size() + checksum_piece - 1) /
                                         checksum_piece);
@@ -110,10 +110,9 @@ arrays_of(const PhotonMap& map) noexcept {
                 sums[i] = sum;
             },
             {.threads = threads});
-        for (const std::uint64_t sum : sums)
-            for (const unsigned char byte : bytes_of(sum)) all = fnv_hash(all, byte);
+        for (const std::uint64_t sum : sums) all.add(sum);
     }
-    return all;
+    return all.value;
 }
 
 // Whether the photons of a block are valid for make_photon_map(), and whether unused

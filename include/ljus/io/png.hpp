@@ -97,7 +97,7 @@ template <std::floating_point T>
     const auto append = [](void* context, void* data, int size) {
         const auto* bytes = static_cast<const unsigned char*>(data);
         Bytes& whole = *static_cast<Bytes*>(context);
-        for (int i = 0; i < size; ++i) whole.push_back(bytes[i]);
+        whole.insert(whole.end(), bytes, bytes + size);
     };
     if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
                                screen.data(), 3 * image.width) == 0)

@@ -142,11 +142,9 @@ template <typename Scene, typename Files,
           std::floating_point T = typename Scene::Scalar>
 void read_light(const JsonField& field, const LampGroups& groups, Scene& scene,
                 const Files& files) {
-    const JsonField type = member(field, "type");
-    const std::string& name = text(type);
-    const JsonTable* const table = table_of(light_tables, name);
-    if (table == nullptr) require_one_of(type, light_words);
-    const JsonMembersOf in(field, table->members, light_shared);
+    const JsonTable& table = table_of(light_tables, field);
+    const std::string_view name = table.name;
+    const JsonMembersOf in(field, table.members, light_shared);
     const T factor = static_cast<T>(groups.factor(in));
     const auto light_of = [&](const char* what) {
         return factor * RgbT<T>{in.vector(what)};
@@ -209,10 +207,8 @@ inline constexpr JsonTable fog_tables[]{{"sphere", {}, "a ball", fog_sphere_memb
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 void read_fog(const JsonField& field, Scene& scene) {
-    const JsonField type = member(field, "type");
-    const JsonTable* const table = table_of(fog_tables, text(type));
-    if (table == nullptr) require_one_of(type, fog_words);
-    const JsonMembersOf in(field, table->members, fog_shared);
+    const JsonTable& table = table_of(fog_tables, field);
+    const JsonMembersOf in(field, table.members, fog_shared);
     const auto vector = [&](const char* name) { return Vec3T<T>{in.vector(name)}; };
     const auto add = [&](const auto& region) {
         made_of(field, [&] {
@@ -223,7 +219,7 @@ void read_fog(const JsonField& field, Scene& scene) {
                 .g = static_cast<T>(in.number("g"))});
         });
     };
-    if (table->name == "sphere")
+    if (table.name == "sphere")
         add(SphereT<T>{vector("center"), static_cast<T>(in.number("radius"))});
     else
         add(BoxT<T>{vector("low"), vector("high")});

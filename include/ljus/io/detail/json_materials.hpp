@@ -123,10 +123,11 @@ MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
     using Picture = PictureTextureT<T, UvMapT<T>>;
     const UvMapT<T> map = read_uv_map<T>(in);
     const auto on_map = [&](const JsonField& file, PictureContent content) {
-        return picture_on<T>(map, in, file, [&](const std::string& path) {
+        const auto take = [&](const std::string& path) {
             return content == PictureContent::colors ? pictures.take(path)
                                                      : pictures.take(path, content);
-        });
+        };
+        return picture_on(map, in, picture_of(file, take));
     };
     const auto even = [&](const RgbT<T>& color) {
         return Picture{.image = make_image(1, 1, color)};

@@ -127,7 +127,6 @@ inline void check_numbers(const JsonField& field, const JsonValue& value,
 
 // Requires that a value is of this kind.
 inline void check_value(const JsonField& field, const JsonValue& value) {
-    constexpr std::string_view three = "a list of three numbers";
     switch (value.kind) {
     case JsonKind::text:
         (void)text(field);
@@ -148,7 +147,7 @@ inline void check_value(const JsonField& field, const JsonValue& value) {
         break;
     case JsonKind::vector:
     case JsonKind::direction:
-        check_numbers(field, value, 3, three);
+        check_numbers(field, value, 3, "a list of three numbers");
         break;
     case JsonKind::scale:
         if (field.value.is_number())
@@ -256,13 +255,16 @@ struct JsonTable {
     JsonNames one_of{}; // members of which an object has exactly one
 };
 
-// The table with this name; null if there is none.
-[[nodiscard]] inline const JsonTable* table_of(std::span<const JsonTable> tables,
-                                               std::string_view name) {
-    for (const JsonTable& table : tables)
-        if (table.name == name || (!table.also.empty() && table.also == name))
-            return &table;
-    return nullptr;
+// The table that the `type` of an object names.
+[[nodiscard]] inline const JsonTable& table_of(std::span<const JsonTable> tables,
+                                               const JsonField& object) {
+    const JsonField type = member(object, "type");
+    std::vector<std::string> names;
+    for (const JsonTable& table : tables) {
+        if (text(type) == table.name) return table;
+        names.emplace_back(table.name);
+    }
+    refuse_word(type, names, in_a_row(names, "or", names.size()));
 }
 
 // The groups of lamps by name, each with the factor by which its light is multiplied.

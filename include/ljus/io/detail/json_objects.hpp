@@ -41,10 +41,8 @@ template <std::floating_point T>
 struct NoMeshesT {
     [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
                                                   const std::string&) const {
-        throw std::runtime_error(
-            shown_path(file) +
-            ": load_json() reads no meshes unless it is given MeshFiles, from "
-            "ljus/io/load_mesh.hpp.");
+        refuse_file(file, "load_json() reads no meshes unless it is given MeshFiles, "
+                          "from ljus/io/load_mesh.hpp");
     }
 };
 
@@ -397,8 +395,7 @@ inline MaterialId material_of(const JsonField& field,
     if (known != materials.end()) return known->second;
     std::vector<std::string> names;
     for (const auto& [name, id] : materials) names.push_back(name);
-    refuse_word(material, names,
-                std::string("one of the materials ") + in_a_row(names, "or"));
+    refuse_word(material, names, "one of the materials " + in_a_row(names, "or"));
 }
 
 template <std::floating_point T>
@@ -461,11 +458,9 @@ void read_object(const JsonField& field,
                  const std::map<std::string, MaterialId>& materials,
                  const LampGroups& groups, FileSceneT<T>& scene, FileMeshesT<T>& meshes,
                  LoadMeshes& load_meshes) {
-    const JsonField type = member(field, "type");
-    const JsonTable* const table = table_of(object_tables, text(type));
-    if (table == nullptr) require_one_of(type, object_words);
-    const JsonMembersOf in(field, table->members, object_shared);
-    const bool of_file = table->name == "mesh" || table->name == "instances";
+    const JsonTable& table = table_of(object_tables, field);
+    const JsonMembersOf in(field, table.members, object_shared);
+    const bool of_file = table.name == "mesh" || table.name == "instances";
     const bool own =
         of_file && (!in.has("material") ||
                     (text(in["material"]) == "file" && !materials.contains("file")));
@@ -497,14 +492,14 @@ void read_object(const JsonField& field,
                        "file other shapes do not move");
         });
     };
-    if (table->name == "mesh")
+    if (table.name == "mesh")
         read_meshes(mesh_name(in, own), scene, meshes, load_meshes,
                     placement.has_value(), add);
-    else if (table->name == "instances")
+    else if (table.name == "instances")
         read_instances(in, mesh_name(in, own), scene, meshes, load_meshes,
                        add_to_scene);
     else
-        read_shapes<T>(in, table->name, add);
+        read_shapes<T>(in, table.name, add);
 }
 
 } // namespace ljus::detail

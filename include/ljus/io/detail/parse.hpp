@@ -21,6 +21,7 @@
 #include <glm/vec3.hpp>
 
 #include "ljus/io/file.hpp"
+#include "ljus/io/nearest_word.hpp"
 
 namespace ljus::detail {
 
@@ -124,11 +125,7 @@ struct Words {
 // Whether two words are equal but for capital letters: programs write map_Kd and
 // map_kd.
 inline bool same_word(std::string_view a, std::string_view b) {
-    const auto small = [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char c, char d) { return small(c) == small(d); });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter);
 }
 
 // Counts the lines that begin with keywords that the reader does not use. A keyword
@@ -160,15 +157,6 @@ private:
     };
     std::map<std::string, Found, std::less<>> words_{};
 };
-
-// Whether a word is one of a list.
-inline bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-inline bool is_one_of(std::string_view word,
-                      std::initializer_list<std::string_view> list) {
-    return is_one_of(word, std::span(list.begin(), list.size()));
-}
 
 // The number that a word spells; 0 if it is too small for double, and NaN if the word
 // is no number.
