@@ -65,9 +65,9 @@ inline std::string path_beside(const std::string& file, const std::string& name)
 
 } // namespace detail
 
-/// A list of the files that this thread reads while the list exists. While a scene is
-/// loaded, the list collects the scene file and all files of meshes, materials and
-/// pictures. If several lists exist, a file goes into the newest list only.
+/// A list of the files that this thread reads while the list exists, such as a scene
+/// file with its meshes and pictures. If several lists exist, a file goes into the
+/// newest list only.
 class FilesRead {
 public:
     /// A file that the thread has tried to read.
@@ -160,13 +160,10 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     if (notes != nullptr) notes->files_[number].hash = hash;
 }
 
-/// Reads a file. If a FilesRead exists, the file is added to its list.
-/// \param path  The file; not a pipe or a device, which may never end.
-/// \param most  The largest size in bytes.
-/// \param begin The bytes with which the file must begin. They are tested before the
-///              rest is read.
-/// \throws std::runtime_error  with path and reason, if the file cannot be read, is too
-///         large, or begins with other bytes.
+/// Reads a whole file of at most `most` bytes, as read_in_pieces() does. The file must
+/// begin with the bytes `begin`, which are tested before the rest is read.
+/// \throws std::runtime_error  as read_in_pieces(), or if the file begins with other
+///         bytes.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
     Bytes bytes;
@@ -188,7 +185,6 @@ inline std::string_view plain_text(std::string_view text, const std::string& pat
     return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
-// The text of a file.
 inline std::string load_text(const std::string& path, std::size_t most) {
     std::string text;
     read_in_pieces(path, most, [&](std::string_view piece, bool) {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file_beside.hpp
-/// \brief Writes files whole or not at all. A new file is written beside the older one,
-/// and replaces it when complete.
+/// \brief Saves files whole or not at all.
 
 #include <cerrno>
 #include <cstddef>
@@ -33,8 +32,7 @@
 namespace ljus {
 
 /// \defgroup file Files
-/// \brief Reading and saving files. A save that fails keeps the older file and leaves
-/// no incomplete one.
+/// \brief Reading files, and saving them whole or not at all.
 /// \{
 
 /// The bytes of a file.
@@ -172,8 +170,7 @@ public:
 
     [[gnu::cold]] void rename_to_path() {
 #ifdef _WIN32
-        // On Windows std::rename does not replace a file. The older file is renamed
-        // first, and renamed back if the new file cannot be renamed.
+        // On Windows std::rename does not replace a file.
         const std::string aside = name_ + ".old";
         const bool older = std::rename(path_.c_str(), aside.c_str()) == 0;
         renamed_ = std::rename(name_.c_str(), path_.c_str()) == 0;
@@ -284,8 +281,8 @@ private:
     file.rename_to_path();
 }
 
-/// Tests whether save_file() could write a file, so that an error is found before a
-/// long computation. It writes a file of one byte beside `path` and removes it.
+/// Tests, before a long computation, whether save_file() could write to `path`. A file
+/// of one byte is written beside `path` and removed.
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));

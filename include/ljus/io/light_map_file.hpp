@@ -83,10 +83,8 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     save_file(path, bytes);
 }
 
-/// Loads a light map.
-/// \param path  The file.
-/// \param key   The key that the file must have, from light_map_key().
-/// \param most  The largest number of patches.
+/// Loads a light map of at most `most` patches. The file must have the key `key`, from
+/// light_map_key().
 /// \return The map, equal to the saved one in every bit.
 /// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
 ///         ..." if the scene or the settings differ; otherwise as open_file().

@@ -3,10 +3,9 @@
 /// \file ljus/io/load_image.hpp
 /// \brief Loads PNG, JPEG and BMP pictures, in linear colours.
 ///
-/// The pictures are decoded by stb_image. This header compiles the implementation of
-/// stb_image, hidden from other files. A program that compiles stb_image in the *same*
-/// file must include stb_image before this header. Without stb_image, loading a picture
-/// throws an error that says so.
+/// This header compiles stb_image, hidden from other files. A program that compiles
+/// stb_image in the *same* file must include stb_image before this header. Without
+/// stb_image, loading a picture throws.
 
 #include "ljus/io/detail/stb_memory.hpp"
 
@@ -143,9 +142,9 @@ inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
     return profile;
 }
 
-// Decodes the bytes of a picture, and calls refuse(why) for an error. `wanted` is the
-// number of bytes per pixel. `colors` says whether the bytes are used as sRGB colours.
-// `others` is explained in decode_image().
+// Decodes a picture into `wanted` bytes per pixel, and calls refuse(why) for an error.
+// `colors` says whether the bytes are used as sRGB colours. For `others` see
+// decode_image().
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,
                           Refuse refuse) {
@@ -230,9 +229,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// Decodes a picture.
 /// \param bytes   The file.
 /// \param path    The path of the file, for messages.
-/// \param others  The number of pixels in all pictures that the caller keeps already.
-///                All pictures together are limited, because a file of four kilobytes
-///                can have thirty million pixels.
+/// \param others  The number of pixels in all pictures that the caller keeps already;
+///                with these, a picture may have at most 2^25.
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright

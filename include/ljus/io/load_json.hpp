@@ -46,8 +46,7 @@ namespace detail {
 /// The largest file that load_json() accepts, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
-/// The largest number of soap films. The colours of each film take a tenth of a second
-/// to compute.
+/// The largest number of soap films. Each takes a tenth of a second to compute.
 inline constexpr std::size_t max_soap_films = 16;
 
 inline constexpr JsonMember camera_members[]{
@@ -176,14 +175,12 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 
 } // namespace detail
 
-/// Reads a scene from the text of a scene file.
-/// \param source  The text.
-/// \param file    The path of the file, for messages. Other files are looked for in its
-///                folder.
-/// \param load_meshes  Reads mesh files, for example MeshFiles. Called as
-///                     load_meshes(path, scale, normals), once for each combination of
-///                     these, and returns a vector of meshes. WithExr also reads EXR
-///                     pictures.
+/// Reads a scene from the text of a scene file. `file` is its path, for messages; other
+/// files are looked for in its folder.
+///
+/// `load_meshes` reads mesh files, for example MeshFiles. It is called as
+/// load_meshes(path, scale, normals), once for each combination of these, and returns a
+/// vector of meshes. WithExr also reads EXR pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
@@ -196,11 +193,8 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
     return detail::read_scene<T>({root, file, root}, load_meshes);
 }
 
-/// Loads a scene file.
-/// \param path  The file.
-/// \param load_meshes  As in read_json_scene(): MeshFiles, WithExr, or nothing.
-/// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
-///         file cannot be read.
+/// Loads a scene file; see read_json_scene().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {

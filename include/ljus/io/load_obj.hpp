@@ -270,8 +270,7 @@ public:
         });
     }
 
-    // Returns the faces by material, in the order in which materials are first used,
-    // and completes the report.
+    // Returns the faces and the report; see MeshBuilder::take_faces().
     std::vector<MeshFacesT<T>> take_faces(MeshReport& report) {
         std::vector<const MeshMaterial*> known(names_.size() + 1); // nullptr: no
                                                                    // material
@@ -410,11 +409,8 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
 } // namespace detail
 
 /// Reads meshes from the text of an OBJ file. All faces of one material form one mesh.
-/// A face with more than three corners is cut into triangles by cut_polygon().
-/// \param text      The text.
-/// \param file      The path of the file, for messages. Material files are looked for
-///                  in its folder.
-/// \param settings  Scale and normals.
+/// A face with more than three corners is cut into triangles. `file` is the path of the
+/// file, for messages; material files are looked for in its folder.
 /// \return The meshes, and a report of the problems of the file. Elements of the file
 ///         that cannot be used are left out and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
@@ -428,10 +424,8 @@ template <std::floating_point T = float>
                                       [&](auto& reader) { reader.read(text, true); });
 }
 
-/// Loads an OBJ file.
-/// \return As read_obj().
-/// \throws std::runtime_error  as read_obj(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads an OBJ file; see read_obj().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_obj(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -353,10 +353,8 @@ template <std::floating_point T = float>
         read, detail::no_pictures);
 }
 
-/// Loads a PLY file.
-/// \return As read_ply().
-/// \throws std::runtime_error  as read_ply(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads a PLY file; see read_ply().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_ply(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -157,10 +157,8 @@ template <std::floating_point T = float>
         detail::no_pictures);
 }
 
-/// Loads an STL file.
-/// \return As read_stl().
-/// \throws std::runtime_error  as read_stl(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads an STL file; see read_stl().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

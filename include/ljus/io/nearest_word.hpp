@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/nearest_word.hpp
-/// \brief Finds the known word that is most like an unknown word, for "Did you mean
-/// ...".
+/// \brief Finds the known word that is most like an unknown word.
 
 #include <algorithm>
 #include <cstddef>
@@ -60,13 +59,10 @@ inline bool same_letter(char a, char b) {
     return last[to.size()];
 }
 
-/// The word of a list that is most like a given word.
-/// \param word   The word of the user.
-/// \param words  The known words.
-/// \return The known word with the smallest edit distance, if at most one letter in
-///         three is wrong. Otherwise a known word that contains the given word or is
-///         part of it. If several words fit, the first of them; if none fits, an empty
-///         text.
+/// The word of `words` that is most like `word`.
+/// \return The word with the smallest edit distance, if at most one letter in three of
+///         `word` is wrong. Otherwise one that contains `word` or is part of it. If
+///         several words fit, the first of them; if none fits, an empty text.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;

@@ -212,11 +212,8 @@ private:
 
 } // namespace detail
 
-/// Saves a photon map; see save_file().
-/// \param path  The file.
-/// \param map   The map.
-/// \param key   A number by which the caller tells maps apart, such as a hash of the
-///              scene and the settings.
+/// Saves a photon map; see save_file(). By `key` the caller tells maps apart; it may be
+/// a hash of the scene and the settings.
 /// \throws std::runtime_error  as save_file().
 /// \cost 50 bytes per photon in the file; no further memory.
 inline void save_photon_map(const std::string& path, const PhotonMap& map,
@@ -250,10 +247,9 @@ struct PhotonMapFileSettings {
     int threads = 0;           ///< Threads for the check, as in ParallelSettings.
 };
 
-/// Opens a photon map in a file. The file is mapped into memory: a search reads the
-/// pages that it needs, and the system drops pages when memory is short. While the map
-/// is open, save_photon_map() may replace the file, but no program may write into the
-/// file or shorten it.
+/// Opens a photon map in a file, which is mapped into memory. While the map is open,
+/// save_photon_map() may replace the file, but no program may write into the file or
+/// shorten it.
 /// \return The map, equal to the saved one in every bit. The file stays mapped as long
 ///         as this map exists, or a map to which it is moved. A copy of the map does
 ///         not need the file.

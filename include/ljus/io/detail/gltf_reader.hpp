@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/gltf_reader.hpp
-/// \brief The reader of load_gltf(): it walks through the nodes of a scene and reads
-/// their meshes, cameras and lights.
+/// \brief Reads the meshes, cameras and lights of the nodes of a glTF scene.
 
 #include <numbers>
 #include <optional>
@@ -488,7 +487,6 @@ private:
             unused.push_back("holes and normals of what glows");
     }
     // The picture of metal (blue) and roughness (green); nullptr if it cannot be read.
-    // The pixels of all such pictures together are limited.
     const ImageT<T>* metal_picture(const JsonField& texture) {
         const std::string name = picture_of(texture);
         const auto [known, fresh] = metal_pictures_.try_emplace(name);

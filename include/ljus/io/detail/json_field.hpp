@@ -141,8 +141,7 @@ using JsonNames = std::span<const std::string_view>;
                                : join({"is not known; did you mean ", near,
                                        "? The fields here are ", list}));
 }
-// Throws an error about a value that must be one of several words, and proposes the
-// nearest word.
+// Throws an error about an unknown word, and proposes the nearest known one.
 [[noreturn]] inline void refuse_word(const JsonField& field,
                                      const std::vector<std::string>& known,
                                      const std::string& right) {
@@ -211,8 +210,7 @@ inline void require_one_of(const JsonField& field, JsonNames names) {
     return static_cast<long long>(value);
 }
 
-// The path of a file that a scene file names. Unless absolute, it is relative to the
-// folder of the scene file.
+// The path of the file that a field names.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
     return path_beside(field.file, text(field));
 }

@@ -84,8 +84,8 @@ inline constexpr JsonTable light_tables[]{
      "a point whose intensity a maker has measured: ljus::load_ies()",
      goniometric_members}};
 
-// Reads the picture of a sky, which exactly one of three fields describes.
-// \param files  The reader of mesh files; WithExr reads EXR pictures as well.
+// Reads the picture of a sky, which exactly one of three fields describes. `files` is
+// the reader of mesh files; WithExr reads EXR pictures as well.
 template <std::floating_point T, typename Files>
 ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     if (in.has("radiance") + in.has("gradient") + in.has("file") != 1)
@@ -115,8 +115,7 @@ ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     refuse_value(file, "a picture with the ending .hdr, .pfm or .exr");
 }
 
-// Reads the intensities of a lamp. The intensities of all lamps of a file are limited
-// together.
+// Reads the intensities of a lamp. `others` are the lamps before it.
 template <std::floating_point T>
 IntensityTable read_intensities(const JsonMembersOf& in,
                                 const std::vector<GoniometricLightT<T>>& others) {

@@ -167,9 +167,7 @@ inline void check_value(const JsonField& field, const JsonValue& value) {
 // An object whose members are those of its tables.
 class JsonMembersOf {
 public:
-    // Checks all members.
-    // \param own     The table of this kind of object.
-    // \param shared  A table that several kinds have in common.
+    // Checks all members. The table `shared` is common to several kinds of objects.
     JsonMembersOf(const JsonField& field, JsonMembers own, JsonMembers shared = {})
         : field_(field), tables_{shared, own} {
         if (!field.value.is_object()) refuse_value(field, "an object");

@@ -166,8 +166,7 @@ inline glm::dvec3 point_of(const JsonField& field) {
             field.value[2].get<double>()};
 }
 
-// Reads the triangles of an object. Two triangles that form a parallelogram become a
-// quad.
+// Reads the triangles of an object.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -188,8 +187,8 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 /// together have at most 2^22 triangles.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
-/// The largest number of triangles of all instances together. The number is limited
-/// because the area of a stretched instance is computed as a sum over its triangles.
+/// The largest number of triangles of all instances together. The area of a stretched
+/// instance is computed as a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
 // How an object names a mesh file, and whether it is made of the file's materials.
@@ -219,9 +218,8 @@ struct FileSurfaceT {
     RgbT<T> emission{T(0)};
 };
 
-// The mesh files that a scene has read so far. A file that is named again is not read
-// again: its meshes are copied from the scene or, if a transform has changed those,
-// from `unplaced`. Meshes of instances are kept once.
+// The mesh files that a scene has read so far. Meshes are copied from the scene or, if
+// a transform has changed those, from `unplaced`. Meshes of instances are kept once.
 template <std::floating_point T>
 struct FileMeshesT {
     struct Reading {
@@ -295,8 +293,7 @@ FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
 }
 
 // Adds the meshes of a file by calls of add(mesh, surface). The surface is null unless
-// the file's own materials are used.
-// \param is_placed  Whether `add` applies a transform to the meshes.
+// the file's own materials are used. If `is_placed`, add() applies a transform.
 template <std::floating_point T, typename LoadMeshes, typename Add>
 void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
                  LoadMeshes& load_meshes, bool is_placed, Add add) {

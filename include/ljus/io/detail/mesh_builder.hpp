@@ -169,7 +169,7 @@ public:
                 missing_[k] = true;
         if (face_.size() <= 1000) face_.push_back(has);
     }
-    // Says that an element that the file names for a corner of the face does not exist.
+    // Notes that a corner of the face names an element that does not exist.
     void miss(std::size_t k) { missing_[k] = true; }
 
     // Ends a face: adds the triangles between its corners.

@@ -68,8 +68,8 @@ struct LineReader {
     std::string joined{};
 
     // Calls use(line, number) for each line of a piece. A line that reaches the end of
-    // a piece may be incomplete. Unless the piece is the last one, it is therefore left
-    // for the next piece. Returns the number of bytes that were used.
+    // a piece may be incomplete, and is left for the next piece, if there is one.
+    // Returns the number of bytes that were used.
     template <typename Use>
     std::size_t read(std::string_view piece, bool last, Use use) {
         std::string_view rest = number == 1 ? plain_text(piece, file) : piece;

@@ -13,9 +13,8 @@ namespace ljus::detail {
 // The deepest nesting of lists and objects.
 inline constexpr std::size_t max_json_depth = 32;
 
-// The limit for one file: this many numbers, or a quarter as many lists and objects,
-// which take more memory. Without a limit a file of some megabytes could exhaust
-// memory.
+// The limit for one file: this many numbers, or a quarter as many lists, objects and
+// members, which take more memory.
 inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
 
 // Receives the events of nlohmann's parser and builds the value.
@@ -134,8 +133,7 @@ private:
 };
 
 // Parses JSON. The name of the file is for messages, such as "scene.json: line 3,
-// column 7: unexpected end of input; expected '}'." For a duplicate member, or a value
-// that is nested too deeply, the message gives its path.
+// column 7: unexpected end of input; expected '}'."
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
     source = plain_text(source, file);
