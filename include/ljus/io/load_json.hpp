@@ -161,8 +161,7 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     loaded.camera = read_camera<T>(in["camera"]);
     read_image_size(in["image"], loaded);
     const auto materials = read_materials(in["materials"], loaded.scene);
-    const LampGroups groups =
-        in.has("lamp_groups") ? LampGroups(in["lamp_groups"]) : LampGroups();
+    const LampGroups groups(in);
     FileMeshesT<T> meshes;
     for (const JsonField& object : entries(in["objects"]))
         read_object(object, materials, groups, loaded.scene, meshes, load_meshes);

@@ -300,39 +300,25 @@ template <std::floating_point T>
         std::snprintf(text.data(), text.size(), "%.6g", number);
         return std::string(text.data());
     };
-    std::string text = detail::join(
-        {"  vertices   ",
-         to_text(has.vertices),
-         ", ",
-         to_text(has.unused),
-         " of them in no face; ",
-         to_text(has.normals),
-         " normals, ",
-         to_text(has.uvs),
-         " texture coordinates\n  groups     ",
-         to_text(has.groups),
-         " in ",
-         to_text(has.objects),
-         " objects\n  faces      ",
-         to_text(has.faces),
-         ", ",
-         to_text(has.polygons),
-         " of them with more than three corners, which are cut; ",
-         to_text(has.flat_faces),
-         " without normals, ",
-         to_text(has.no_uv_faces),
-         " without texture coordinates\n  triangles  ",
-         to_text(triangles),
-         "\n  box        ",
-         to_text(box.low),
-         " to ",
-         to_text(box.high),
-         "\n  area       ",
-         digits(area),
-         "\n  closed     ",
-         has.closed ? "yes; volume " + digits(has.volume) : "no",
-         has.closed && has.volume < 0 ? ": the faces look inwards, it is inside out\n"
-                                      : "\n"});
+    using detail::join;
+    std::string text =
+        join({"  vertices   ", to_text(has.vertices), ", ", to_text(has.unused),
+              " of them in no face; ", to_text(has.normals), " normals, ",
+              to_text(has.uvs), " texture coordinates"});
+    text += join({"\n  groups     ", to_text(has.groups), " in ", to_text(has.objects),
+                  " objects"});
+    text += join({"\n  faces      ", to_text(has.faces), ", ", to_text(has.polygons),
+                  " of them with more than three corners, which are cut; ",
+                  to_text(has.flat_faces), " without normals, ",
+                  to_text(has.no_uv_faces), " without texture coordinates"});
+    text += "\n  triangles  " + to_text(triangles);
+    text += join({"\n  box        ", to_text(box.low), " to ", to_text(box.high)});
+    text += "\n  area       " + digits(area);
+    text += "\n  closed     " +
+            (has.closed ? "yes; volume " + digits(has.volume) : std::string("no"));
+    if (has.closed && has.volume < 0)
+        text += ": the faces look inwards, it is inside out";
+    text += "\n";
     for (const MeshPartT<T>& part : loaded.parts)
         text += "  material   " +
                 (part.material.name.empty() ? "(none)" : shown(part.material.name)) +
@@ -345,9 +331,8 @@ template <std::floating_point T>
                                         {"spots", loaded.spots.size()},
                                         {"suns", loaded.suns.size()}})
         if (count > 0)
-            text +=
-                detail::join({"  lights     ", to_text(static_cast<long long>(count)),
-                              " ", lights, "\n"});
+            text += join({"  lights     ", to_text(static_cast<long long>(count)), " ",
+                          lights, "\n"});
     const std::string odd = to_text(loaded.report);
     return text + (odd.empty() ? "nothing is odd\n" : "odd:\n" + odd);
 }

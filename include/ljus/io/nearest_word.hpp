@@ -23,6 +23,12 @@ inline bool is_one_of(std::string_view word, std::span<const std::string_view> l
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+// Whether a character is a letter, a digit or _.
+inline bool is_word_letter(char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+           (c >= 'a' && c <= 'z');
+}
+
 // Whether two letters are equal but for capitals.
 inline bool same_letter(char a, char b) {
     const auto small = [](char c) {

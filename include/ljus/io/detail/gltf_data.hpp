@@ -24,18 +24,16 @@ inline constexpr long long max_gltf_elements = 1LL << 25, max_gltf_zeros = 1LL <
 
 // The bytes of a text in base64. Blanks and = are ignored.
 inline Bytes from_base64(std::string_view text, const JsonField& field) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrs"
+                                         "tuvwxyz0123456789+/";
     Bytes bytes;
     std::uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
-        int value = -1;
-        if (c >= 'A' && c <= 'Z') value = c - 'A';
-        if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-        if (c >= '0' && c <= '9') value = c - '0' + 52;
-        if (c == '+') value = 62;
-        if (c == '/') value = 63;
         if (c == '=' || is_blank(c) || c == '\n' || c == '\r') continue;
-        if (value < 0) refuse(field, "has a letter that base64 does not have");
+        const std::size_t value = letters.find(c);
+        if (value == letters.npos)
+            refuse(field, "has a letter that base64 does not have");
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         count += 6;
         if (count < 8) continue;

@@ -41,12 +41,11 @@ struct JsonField {
 // The path of a member, such as "a.b", or "a["b c"]" if its name is not a plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
                                                 std::string_view name) {
-    bool plain = !name.empty() && name.size() <= 48;
-    for (const char c : name)
-        plain = plain && ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '_' || c == '-');
-    if (!plain)
-        return path.append("[\"").append(shown(std::string(name))).append("\"]");
+    const bool plain = !name.empty() && name.size() <= 48 &&
+                       std::all_of(name.begin(), name.end(), [](char c) {
+                           return is_word_letter(c) || c == '-';
+                       });
+    if (!plain) return join({path, "[\"", shown(std::string(name)), "\"]"});
     if (!path.empty()) path += '.';
     return path.append(name);
 }

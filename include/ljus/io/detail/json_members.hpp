@@ -265,12 +265,25 @@ struct JsonTable {
     refuse_word(type, names, in_a_row(names, "or", names.size()));
 }
 
+// The entry of a map that a field names. Messages call the map `what`.
+template <typename Entry>
+const Entry& entry_named(const JsonField& field,
+                         const std::map<std::string, Entry>& map,
+                         std::string_view what) {
+    const auto known = map.find(text(field));
+    if (known != map.end()) return known->second;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : map) names.push_back(name);
+    refuse_word(field, names, join({"one of the ", what, " ", in_a_row(names, "or")}));
+}
+
 // The groups of lamps by name, each with the factor by which its light is multiplied.
 struct LampGroups {
     std::map<std::string, double> factors{};
 
-    LampGroups() = default;
-    explicit LampGroups(const JsonField& groups) {
+    explicit LampGroups(const JsonMembersOf& scene) {
+        if (!scene.has("lamp_groups")) return;
+        const JsonField groups = scene["lamp_groups"];
         for (const auto& [name, value] : groups.value.items())
             factors[name] =
                 number({value, groups.file, groups.root}, 0, 1e9, "within [0, 1e9]");
@@ -279,13 +292,9 @@ struct LampGroups {
     [[nodiscard]] double factor(const JsonMembersOf& in) const {
         if (!in.has("lamp_group")) return 1;
         const JsonField group = in["lamp_group"];
-        const auto known = factors.find(text(group));
-        if (known != factors.end()) return known->second;
-        std::vector<std::string> names;
-        for (const auto& [name, value] : factors) names.push_back(name);
-        refuse_word(group, names,
-                    names.empty() ? "a name of lamp_groups, which the file lacks"
-                                  : "one of the lamp_groups " + in_a_row(names, "or"));
+        if (factors.empty())
+            refuse_value(group, "a name of lamp_groups, which the file lacks");
+        return entry_named(group, factors, "lamp_groups");
     }
 };
 inline constexpr JsonMember lamp_group_row =

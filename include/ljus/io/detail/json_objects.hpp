@@ -385,16 +385,6 @@ void read_instances(const JsonMembersOf& in, const MeshName& named,
     }
 }
 
-inline MaterialId material_of(const JsonField& field,
-                              const std::map<std::string, MaterialId>& materials) {
-    const JsonField material = member(field, "material");
-    const auto known = materials.find(text(material));
-    if (known != materials.end()) return known->second;
-    std::vector<std::string> names;
-    for (const auto& [name, id] : materials) names.push_back(name);
-    refuse_word(material, names, "one of the materials " + in_a_row(names, "or"));
-}
-
 template <std::floating_point T>
 PlacementT<T> read_transform(const JsonField& field) {
     const JsonMembersOf in(field, transform_members);
@@ -461,7 +451,8 @@ void read_object(const JsonField& field,
     const bool own =
         of_file && (!in.has("material") ||
                     (text(in["material"]) == "file" && !materials.contains("file")));
-    const MaterialId material = own ? MaterialId{} : material_of(field, materials);
+    const MaterialId material =
+        own ? MaterialId{} : entry_named(in["material"], materials, "materials");
     const double factor = groups.factor(in);
     const RgbT<T> radiance{factor * in.vector("emission")};
     std::optional<PlacementT<T>> placement;

@@ -133,11 +133,7 @@ inline bool same_word(std::string_view a, std::string_view b) {
 class UnusedLines {
 public:
     void add(std::string_view keyword, long long line) {
-        const auto in_word = [](char c) {
-            return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-                   (c >= 'a' && c <= 'z');
-        };
-        if (!std::all_of(keyword.begin(), keyword.end(), in_word)) return;
+        if (!std::all_of(keyword.begin(), keyword.end(), is_word_letter)) return;
         if (words_.size() < most || words_.contains(keyword))
             ++words_.try_emplace(std::string(keyword), Found{0, line})
                   .first->second.count;

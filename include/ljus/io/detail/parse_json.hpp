@@ -85,11 +85,9 @@ private:
     std::string path() const {
         if (open.empty()) return "the file";
         const nlohmann::json& last = *open.back();
-        return last.is_object() ? path_within(root, *member).value_or("")
-                                : path_within(root, last)
-                                      .value_or("")
-                                      .append("[")
-                                      .append(std::to_string(last.size()) + "]");
+        if (last.is_object()) return path_within(root, *member).value_or("");
+        return join({path_within(root, last).value_or(""), "[",
+                     std::to_string(last.size()), "]"});
     }
 
     void take(std::size_t cost) {
@@ -104,7 +102,8 @@ private:
 
     bool put(nlohmann::json value) {
         take(1);
-        return (void(place(std::move(value))), true);
+        place(std::move(value));
+        return true;
     }
 
     nlohmann::json* place(nlohmann::json&& value) {
