@@ -183,7 +183,6 @@ private:
         long long x = 0, y = 0, width = 0, height = 0;
     };
 
-    // A decoder of one chunk.
     struct Decoder {
         exr_const_context_t context;
         exr_decode_pipeline_t pipeline{};

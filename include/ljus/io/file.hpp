@@ -72,7 +72,7 @@ class FilesRead {
 public:
     /// A file that the thread has tried to read.
     struct File {
-        std::string path; ///< The path as it was passed to load_file().
+        std::string path; ///< The path as the caller wrote it.
         /// FNV-1a hash of the file's bytes; 0 if the file could not be read.
         std::uint64_t hash = 0;
     };

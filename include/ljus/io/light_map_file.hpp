@@ -35,8 +35,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
         put_number(bytes, number);
 }
 
-// Reads the next grid of a file, except its member `first`; nothing if its numbers are
-// not valid.
+// Reads the next grid, except its member `first`; nothing if a number is not valid.
 [[nodiscard]] inline std::optional<PatchGrid> take_grid(FileReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();

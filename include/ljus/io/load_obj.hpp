@@ -32,8 +32,7 @@ namespace ljus {
 
 namespace detail {
 
-// The path of a file that another file names, with slashes for the backslashes of
-// Windows: "maps\wall.png".
+// As path_beside(), for names that may have the backslashes of Windows.
 inline std::string file_named(const std::string& beside, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return path_beside(beside, name);
@@ -385,7 +384,6 @@ private:
     std::map<std::string, Name> names_{};
 };
 
-// The bytes of a picture file.
 inline Bytes picture_file(const std::string& path) {
     return load_file(path, max_image_file);
 }

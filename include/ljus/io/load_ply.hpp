@@ -18,7 +18,6 @@ namespace ljus {
 
 namespace detail {
 
-// A number type of PLY files.
 struct PlyType {
     std::string_view name, other_name; // in old files, in newer files
     std::size_t size;                  // bytes
@@ -93,8 +92,7 @@ private:
             Words words{line};
             const std::string_view keyword = words.next();
             if (keyword == "end_header") {
-                // If lines end in CR alone, an LF that follows belongs to the binary
-                // numbers.
+                // If lines end in CR alone, a following LF belongs to the numbers.
                 const std::size_t used = line.size() + 1;
                 const auto from = static_cast<std::size_t>(line.data() - all.data());
                 if (cr) rest_ = all.substr(std::min(from + used, all.size()));
@@ -234,7 +232,6 @@ private:
         return property.count &&
                (property.name == "vertex_indices" || property.name == "vertex_index");
     }
-    // Notes which properties of vertices and faces are not used.
     void note_unused(const PlyElement& element, const PlyVertex& has) {
         std::string unused;
         for (std::size_t i = 0; i < element.properties.size(); ++i) {

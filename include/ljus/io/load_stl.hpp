@@ -63,11 +63,10 @@ struct StlReader {
     }
     // A point or a normal of a binary file.
     [[nodiscard]] glm::dvec3 three_floats(std::size_t at) const {
-        glm::dvec3 three;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            three[static_cast<int>(axis)] =
-                binary_number(text.substr(at + 4 * axis, 4), 'f');
-        return three;
+        const auto number = [&](std::size_t i) {
+            return binary_number(text.substr(at + 4 * i, 4), 'f');
+        };
+        return {number(0), number(1), number(2)};
     }
     void read_binary() {
         if (text.size() < stl_head)

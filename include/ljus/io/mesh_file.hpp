@@ -151,8 +151,7 @@ using MeshMetalDetailed = MeshDetailedT<Glossy>;
 
 namespace detail {
 
-// The pixels of a material's picture; nullptr if there is no picture, or it could not
-// be read.
+// The pixels of a picture; nullptr if there is none, or it could not be read.
 template <std::floating_point T>
 const ImageT<T>* find_picture(const LoadedMeshT<T>& loaded, const MeshImage& image) {
     const auto found = loaded.pictures.find(image.name);

@@ -174,7 +174,6 @@ public:
     MappableFile& operator=(const MappableFile&) = delete;
     ~MappableFile() { ::close(file_); }
 
-    // The size of the file in bytes.
     [[nodiscard]] std::size_t size() const {
         struct ::stat status = {};
         if (::fstat(file_, &status) != 0) fail_to_read(path_, std::strerror(errno));

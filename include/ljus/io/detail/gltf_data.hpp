@@ -132,7 +132,6 @@ inline std::size_t size_field(const JsonField& field, std::string_view name) {
     return found ? static_cast<std::size_t>(whole_number(*found, 0, 1LL << 40)) : 0;
 }
 
-// Reads the buffers, views and accessors of a file.
 class GltfData {
 public:
     explicit GltfData(const GltfFile& file) : file_(file) {}

@@ -125,8 +125,7 @@ private:
                                  ", which is not known: what it adds is left out"}));
     }
 
-    // The top nodes of the scene; in a file without scenes, the nodes that are no
-    // children.
+    // The top nodes of the scene; without scenes, the nodes that are no children.
     std::vector<std::size_t> roots() const {
         const JsonField root = file_.root();
         const auto scenes = find(root, "scenes");
@@ -326,8 +325,7 @@ private:
         }
         if (const auto normals = find(attributes, "NORMAL")) {
             const std::vector<double> n = attribute(*normals, {"VEC3"}, count, size);
-            // The inverse transpose times the determinant, which exists even for a
-            // scale of 0.
+            // The inverse transpose times |determinant| exists even for a scale of 0.
             const glm::dmat3 m(place);
             const double side = glm::determinant(m) < 0 ? -1 : 1;
             const glm::dmat3 turn(side * glm::cross(m[1], m[2]),
@@ -445,8 +443,7 @@ private:
             .offset{offset.x + turn.y * scale.y, 1 - turn.x * scale.y - offset.y}};
         return whole && !find(*transform, "texCoord");
     }
-    // Reads the normal map and the holes of a material, whose base colour is already
-    // read.
+    // Reads the normal map and the holes of a material, after its base colour.
     void read_details(const JsonField& field, double alpha, MeshMaterial& material,
                       std::vector<std::string>& unused) {
         const auto texture = find(field, "normalTexture");

@@ -20,7 +20,6 @@
 
 namespace ljus::detail {
 
-// A value within a JSON file.
 struct JsonField {
     const nlohmann::json& value;
     const std::string& file;    // the name of the file, for messages

@@ -100,7 +100,6 @@ inline constexpr JsonValue factor_value{JsonKind::number, 1e-9, 1e9,
 inline constexpr JsonValue angle_value{JsonKind::number, -360, 360,
                                        "within [-360, 360] degrees"};
 
-// Requires that a number is of this kind.
 inline void check_number(const JsonField& field, const JsonValue& value) {
     if (value.kind == JsonKind::whole)
         (void)whole_number(field, static_cast<long long>(value.low),
@@ -125,7 +124,6 @@ inline void check_numbers(const JsonField& field, const JsonValue& value,
         refuse_value(field, "a vector that is not 0");
 }
 
-// Requires that a value is of this kind.
 inline void check_value(const JsonField& field, const JsonValue& value) {
     switch (value.kind) {
     case JsonKind::text:
@@ -199,8 +197,7 @@ public:
         const auto found = find(row);
         return found ? found->value.get<double>() : row.preset;
     }
-    // The three numbers of a member. A single number, or the default, is used three
-    // times.
+    // The three numbers of a member; a single number or default is used three times.
     [[nodiscard]] glm::dvec3 vector(std::string_view name) const {
         const JsonMember& row = *row_of(name);
         const auto found = find(row);

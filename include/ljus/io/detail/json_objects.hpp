@@ -142,7 +142,6 @@ inline constexpr JsonTable object_tables[]{
     {"disc", {}, "a disc", disc_members},
     {"cylinder", {}, "a tube", cylinder_members}};
 
-// Reads the three indices of a triangle.
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
@@ -166,7 +165,6 @@ inline glm::dvec3 point_of(const JsonField& field) {
             field.value[2].get<double>()};
 }
 
-// Reads the triangles of an object.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -182,9 +180,8 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 }
 
 /// Limits for mesh files that a scene names several times. A file is read again only
-/// for another scale, other normals or other materials, at most 16 times in all. If a
-/// scene names a file again with the same values, the meshes are copied; all copies
-/// together have at most 2^22 triangles.
+/// for another scale, other normals or other materials. Otherwise its meshes are
+/// copied, with at most 2^22 triangles in all copies together.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
 /// The largest number of triangles of all instances together. The area of a stretched
@@ -211,7 +208,6 @@ inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
             own_materials};
 }
 
-// The material and emission of an object.
 template <std::floating_point T>
 struct FileSurfaceT {
     MaterialId material{};
@@ -239,7 +235,6 @@ struct FileMeshesT {
     std::size_t pixels = 0;                          // of pictures that mesh files name
 };
 
-// Requires that a file may be read once more.
 inline void require_readings(const JsonField& file, std::size_t readings) {
     if (readings == max_mesh_readings)
         refuse(file, "is named with more than 16 scales and normals");

@@ -35,8 +35,7 @@ inline std::uint64_t unsigned_value(std::string_view bytes, bool high_first = fa
     return bits;
 }
 
-// The number in some bytes. Its kind is 'i' (signed), 'u' (unsigned) or 'f' (floating
-// point).
+// The signed ('i'), unsigned ('u') or floating-point ('f') number in some bytes.
 inline double binary_number(std::string_view bytes, char kind,
                             bool high_first = false) {
     const std::uint64_t bits = unsigned_value(bytes, high_first);
@@ -122,8 +121,7 @@ struct Words {
     }
 };
 
-// Whether two words are equal but for capital letters: programs write map_Kd and
-// map_kd.
+// Whether two words are equal but for capital letters, as map_Kd and map_kd are.
 inline bool same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter);
 }
@@ -154,8 +152,7 @@ private:
     std::map<std::string, Found, std::less<>> words_{};
 };
 
-// The number that a word spells; 0 if it is too small for double, and NaN if the word
-// is no number.
+// The number that a word spells; 0 if it is too small for double, NaN for no number.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;
