@@ -86,7 +86,9 @@ TEST_CASE("exr: every half is loaded as the number that it is, and saved as itse
                             : exponent < 31 ? std::ldexp(1024 + mantissa, exponent - 25)
                             : mantissa == 0 ? double(infinity)
                                             : double(not_a_number);
-        const float value = detail::float_of_half(bits);
+        const unsigned char bytes[]{static_cast<unsigned char>(bits & 255u),
+                                    static_cast<unsigned char>(bits >> 8)};
+        const float value = detail::exr_number(bytes, EXR_PIXEL_HALF);
         if (std::isnan(size)) {
             REQUIRE(std::isnan(value));
         } else {

@@ -1,9 +1,3 @@
-# The smallest halves are taken for twice what they are.
-ljus_break_it(NAME exr-half-denormal HEADER io/exr.hpp TEST exr
-    FROM "static_cast<float>(mantissa) / 16777216"
-    TO   "static_cast<float>(mantissa) / 8388608"
-    CASES "exr: every half*")
-
 # Rows are counted from 0, wherever the data window begins.
 ljus_break_it(NAME exr-window HEADER io/exr.hpp TEST exr
     FROM "int(window.y + y)"

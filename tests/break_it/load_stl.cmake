@@ -6,8 +6,8 @@ ljus_break_it(NAME stl-solid HEADER io/load_stl.hpp TEST load_stl
 
 # The head is believed.
 ljus_break_it(NAME stl-count HEADER io/load_stl.hpp TEST load_stl
-    FROM "const std::size_t count = from.word(80);"
-    TO   "const std::size_t count = std::min<std::size_t>(from.word(80), 3);"
+    FROM "const std::size_t count = word(80, 4);"
+    TO   "const std::size_t count = std::min<std::size_t>(word(80, 4), 3);"
     CASES "load_stl: a mesh is the same*,load_stl: a file that cannot be right*")
 
 # Each triangle has vertices of its own.

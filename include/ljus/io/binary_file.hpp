@@ -34,14 +34,13 @@ struct FileFormat {
     std::uint32_t version = 1; ///< The only version that is written and read.
 };
 
-/// The size of the header, from the letters to the checksum.
+/// The size of the header, in bytes.
 inline constexpr std::size_t file_front_bytes = 40;
 
 namespace detail {
 
 inline constexpr std::size_t checksum_place = 32;
-inline constexpr std::size_t key_bytes = 8; // size of the key, which follows the header
-                                            // of some formats
+inline constexpr std::size_t key_bytes = 8; // of a key, which follows some headers
 
 // The largest size of a file with `most` entries; the largest size_t if that overflows.
 inline std::size_t file_limit(std::size_t most, std::size_t bytes_of_one) noexcept {
@@ -85,10 +84,8 @@ void put_vector(Bytes& bytes, const Vector& v) {
     for (int axis = 0; axis < 3; ++axis) put_number(bytes, v[axis]);
 }
 
-/// Makes the header of a file. The checksum is set later, by put_checksum().
-/// \param format  The letters and the version.
-/// \param own     Integers that the format defines, 12 bytes in total.
-/// \return 40 bytes.
+/// Makes the header of a file. `own` are integers that the format defines, of 12 bytes
+/// in total. The checksum is set later, by put_checksum().
 template <typename... Own>
 [[nodiscard]] Bytes file_front(const FileFormat& format, Own... own) {
     static_assert((sizeof(Own) + ...) == 12);

@@ -19,6 +19,8 @@
 #include <limits>
 #include <utility>
 
+#include <glm/packing.hpp>
+
 #include "ljus/image/layer.hpp"
 #include "ljus/io/detail/picture_size.hpp"
 #include "ljus/io/detail/srgb_primaries.hpp"
@@ -73,23 +75,10 @@ inline exr_context_initializer_t exr_settings(void* data) {
     return settings;
 }
 
-// The float with the value of a half, which is given by its bits. NaN and infinity are
-// kept.
-inline float float_of_half(std::uint32_t half) {
-    const std::uint32_t sign = (half & 0x8000u) << 16;
-    const std::uint32_t exponent = half >> 10 & 31u, mantissa = half & 1023u;
-    if (exponent == 0) { // denormal: a multiple of 2^-24
-        const float size = static_cast<float>(mantissa) / 16777216;
-        return sign != 0 ? -size : size;
-    }
-    const std::uint32_t biased = exponent == 31 ? 255 : exponent + 112;
-    return std::bit_cast<float>(sign | biased << 23 | mantissa << 13);
-}
-
 // Reads a number, whose lowest byte comes first.
 inline float exr_number(const unsigned char* bytes, std::uint16_t type) {
     std::uint32_t bits = bytes[0] | std::uint32_t(bytes[1]) << 8;
-    if (type == EXR_PIXEL_HALF) return float_of_half(bits);
+    if (type == EXR_PIXEL_HALF) return glm::unpackHalf2x16(bits).x;
     bits |= std::uint32_t(bytes[2]) << 16 | std::uint32_t(bytes[3]) << 24;
     return type == EXR_PIXEL_UINT ? static_cast<float>(bits)
                                   : std::bit_cast<float>(bits);
@@ -136,8 +125,7 @@ public:
         throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
     }
 
-    // Refuses a part whose primaries are not approximately those of sRGB. The white
-    // point is not compared. A part that names no primaries has those of sRGB.
+    // Refuses a part that names other primaries than those of sRGB.
     void require_srgb(int part) const {
         exr_attr_chromaticities_t is{};
         if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
@@ -195,7 +183,6 @@ private:
         long long x = 0, y = 0, width = 0, height = 0;
     };
 
-    // A decoder of one chunk.
     struct Decoder {
         exr_const_context_t context;
         exr_decode_pipeline_t pipeline{};
@@ -230,8 +217,7 @@ private:
         return window;
     }
 
-    // Finds the layers: channels R, G, B or X, Y, Z of one name form a layer, and every
-    // other channel is a layer of its own.
+    // Finds the layers as load_exr_layers() describes them.
     void find_layers() {
         int parts = 0;
         require(exr_get_count(file_.context, &parts), "in its header");
@@ -428,7 +414,6 @@ std::vector<ExrChannel> exr_channels(const std::vector<LayerT<T>>& layers) {
     return channels;
 }
 
-// The bytes of an EXR file.
 template <std::floating_point T>
 Bytes exr_bytes(const std::vector<LayerT<T>>& layers,
                 const std::vector<ExrChannel>& channels, ExrNumbers numbers) {
@@ -542,10 +527,8 @@ template <std::floating_point T = float>
     return layers;
 }
 
-/// Loads one picture from an EXR file, in colour from the channels R, G and B, or in
-/// grey from the channel Y.
-/// \param path   The file.
-/// \param layer  The name of a layer, such as "albedo"; empty for the picture itself.
+/// Loads one layer from an EXR file, such as "albedo"; for an empty name the picture
+/// itself, in colour from the channels R, G and B, or in grey from the channel Y.
 /// \return The picture of the data window, as it is stored: values may be negative,
 ///         infinite or NaN.
 /// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
@@ -577,15 +560,12 @@ template <std::floating_point T = float>
     return detail::layer_in<T>(std::move(layers.front())).image;
 }
 
-/// Saves layers as one EXR file of one part, in scanlines compressed by ZIP.
-/// \param layers   At least one layer; all have the same size, and no two channels have
-///                 the same name.
-/// \param path     The file.
-/// \param numbers  How numbers are stored; a double is rounded to float first.
+/// Saves layers as one EXR file of one part, in scanlines compressed by ZIP. A double
+/// is rounded to float first.
 /// \throws std::invalid_argument  if there is no layer, if sizes differ, if a name
 ///         occurs twice or does not have 1 to 255 bytes, or as check();
 ///         std::runtime_error as save_file().
-/// \cost Memory for the file, and for 32 rows.
+/// \cost Memory for the file, and for buffers of 16 rows.
 template <std::floating_point T>
 void save_exr_layers(const std::vector<LayerT<T>>& layers, const std::string& path,
                      ExrNumbers numbers = ExrNumbers::floats) {

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -39,6 +38,12 @@ namespace detail {
         join({"cannot read '", shown_path(path), "': ", why, "."}));
 }
 
+// Throws an error about the content of a file, such as "a.ply: it ends early."
+[[noreturn, gnu::cold]] inline void refuse_file(const std::string& path,
+                                                std::string_view why) {
+    throw std::runtime_error(join({shown_path(path), ": ", why, "."}));
+}
+
 // Refuses a file that does not begin with certain bytes.
 inline void require_beginning(std::string_view text, std::string_view begin,
                               const std::string& path) {
@@ -58,29 +63,16 @@ inline std::string path_beside(const std::string& file, const std::string& name)
     return name.starts_with('/') ? name : folder_of(file) + name;
 }
 
-// A path that is the same for all names and links of a file; the path itself if the
-// file does not exist.
-inline std::string one_path(const std::string& path) {
-#if __has_include(<unistd.h>)
-    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
-        const std::string found = resolved;
-        std::free(resolved);
-        return found;
-    }
-#endif
-    return path;
-}
-
 } // namespace detail
 
-/// A list of the files that this thread reads while the list exists. While a scene is
-/// loaded, the list collects the scene file and all files of meshes, materials and
-/// pictures. If several lists exist, a file goes into the newest list only.
+/// A list of the files that this thread reads while the list exists, such as a scene
+/// file with its meshes and pictures. If several lists exist, a file goes into the
+/// newest list only.
 class FilesRead {
 public:
     /// A file that the thread has tried to read.
     struct File {
-        std::string path; ///< The path as it was passed to load_file().
+        std::string path; ///< The path as the caller wrote it.
         /// FNV-1a hash of the file's bytes; 0 if the file could not be read.
         std::uint64_t hash = 0;
     };
@@ -96,11 +88,9 @@ public:
     /// A hash of the contents of all files so far, in the order of reading. Names have
     /// no influence on it, but a missing file has.
     [[nodiscard]] std::uint64_t hash() const noexcept {
-        std::uint64_t all = detail::fnv_start;
-        for (const File& file : files_)
-            for (const unsigned char byte : detail::bytes_of(file.hash))
-                all = detail::fnv_hash(all, byte);
-        return all;
+        detail::FieldHash all;
+        for (const File& file : files_) all.add(file.hash);
+        return all.value;
     }
 
 private:
@@ -170,13 +160,10 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
     if (notes != nullptr) notes->files_[number].hash = hash;
 }
 
-/// Reads a file. If a FilesRead exists, the file is added to its list.
-/// \param path  The file; not a pipe or a device, which may never end.
-/// \param most  The largest size in bytes.
-/// \param begin The bytes with which the file must begin. They are tested before the
-///              rest is read.
-/// \throws std::runtime_error  with path and reason, if the file cannot be read, is too
-///         large, or begins with other bytes.
+/// Reads a whole file of at most `most` bytes, as read_in_pieces() does. The file must
+/// begin with the bytes `begin`, which are tested before the rest is read.
+/// \throws std::runtime_error  as read_in_pieces(), or if the file begins with other
+///         bytes.
 [[nodiscard]] inline Bytes load_file(const std::string& path, std::size_t most,
                                      std::string_view begin = {}) {
     Bytes bytes;
@@ -198,7 +185,6 @@ inline std::string_view plain_text(std::string_view text, const std::string& pat
     return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
-// The text of a file.
 inline std::string load_text(const std::string& path, std::size_t most) {
     std::string text;
     read_in_pieces(path, most, [&](std::string_view piece, bool) {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/file_beside.hpp
-/// \brief Writes files whole or not at all. A new file is written beside the older one,
-/// and replaces it when complete.
+/// \brief Saves files whole or not at all.
 
 #include <cerrno>
 #include <cstddef>
@@ -33,8 +32,7 @@
 namespace ljus {
 
 /// \defgroup file Files
-/// \brief Reading and saving files. A save that fails keeps the older file and leaves
-/// no incomplete one.
+/// \brief Reading files, and saving them whole or not at all.
 /// \{
 
 /// The bytes of a file.
@@ -82,6 +80,19 @@ namespace detail {
     fail_to_write(path, std::strerror(error));
 }
 
+// A path that is the same for all names and links of a file; the path itself if the
+// file does not exist.
+inline std::string one_path(const std::string& path) {
+#if __has_include(<unistd.h>)
+    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
+        const std::string found = resolved;
+        std::free(resolved);
+        return found;
+    }
+#endif
+    return path;
+}
+
 // The path of the file that a save replaces. For a symbolic link this is its target, so
 // that the link remains. Throws for folders, pipes, devices (/dev/null) and files
 // without write permission, which are not replaced.
@@ -98,27 +109,20 @@ namespace detail {
         fail_to_write(path, "it is a pipe, a socket or a device, not a file");
     if ((status.st_mode & 0222) == 0 || ::access(path.c_str(), W_OK) != 0)
         fail_to_write(path, EACCES);
-    if (char* const resolved = ::realpath(path.c_str(), nullptr)) {
-        const std::string target = resolved;
-        std::free(resolved);
-        return target;
-    }
 #endif
-    return path;
+    return one_path(path);
 }
 
-// A new file beside `path`, which is removed unless it is renamed to `path`. On systems
-// with files without names (`nameless`), it gets a name only when it is complete, so
-// that a program that is killed before leaves no file. On other systems a killed
-// program may leave a file. Files in use are locked, so that the next save recognises
-// an unlocked file as abandoned, and removes it.
+// A new file beside `path`, which is removed unless it is renamed to `path`. If
+// `nameless`, on systems that allow it, the file gets a name only when it is complete,
+// so that a program that is killed before leaves no file. Files in use are locked: the
+// next save removes an unlocked file.
 class FileBeside {
 public:
     [[gnu::cold]] explicit FileBeside(const std::string& path, bool nameless = true)
         : path_(path) {
         if (nameless) open_nameless();
-        // The mode "x" never opens an existing file, which may belong to another
-        // process.
+        // The mode "x" never opens a file of another process.
         for (long long number = 0; file_ == nullptr && number < most_names; ++number) {
             name_ = name_of(number);
             remove_what_is_left(name_);
@@ -152,9 +156,8 @@ public:
     [[gnu::cold]] void close() {
         if (std::fflush(file_) != 0) fail_to_write(path_, errno);
 #if __has_include(<unistd.h>)
-        // The bytes must be on the disk before the file is renamed. Otherwise a loss of
-        // power could leave the name without the bytes. Some file systems do not
-        // support fsync.
+        // If the file were renamed before its bytes are on the disk, a loss of power
+        // could leave the name without the bytes. Some file systems lack fsync.
         if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)
             fail_to_write(path_, errno);
 #endif
@@ -167,8 +170,7 @@ public:
 
     [[gnu::cold]] void rename_to_path() {
 #ifdef _WIN32
-        // On Windows std::rename does not replace a file. The older file is renamed
-        // first, and renamed back if the new file cannot be renamed.
+        // On Windows std::rename does not replace a file.
         const std::string aside = name_ + ".old";
         const bool older = std::rename(path_.c_str(), aside.c_str()) == 0;
         renamed_ = std::rename(name_.c_str(), path_.c_str()) == 0;
@@ -222,8 +224,7 @@ private:
 #endif
     }
 
-    // Opens a file without a name. A failure is not reported here: opening a file with
-    // a name will fail as well, and report the reason.
+    // Opens a file without a name. If this fails, a file with a name is opened.
     [[gnu::cold]] void open_nameless() {
 #if defined(O_TMPFILE) && defined(AT_SYMLINK_FOLLOW)
         struct ::stat status = {};
@@ -280,8 +281,8 @@ private:
     file.rename_to_path();
 }
 
-/// Tests whether save_file() could write a file, so that an error is found before a
-/// long computation. It writes a file of one byte beside `path` and removes it.
+/// Tests, before a long computation, whether save_file() could write to `path`. A file
+/// of one byte is written beside `path` and removed.
 /// \throws std::runtime_error  as save_file().
 inline void require_writable(const std::string& path) {
     detail::FileBeside probe(detail::file_to_replace(path));

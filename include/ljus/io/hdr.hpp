@@ -134,13 +134,10 @@ inline void read_rgbe_row(ByteReader& reader,
 // `name` letters. A word that is no number gives NaN.
 inline std::vector<double> header_numbers(const std::string& line, std::size_t name) {
     std::vector<double> numbers;
-    for (std::size_t at = name;;) {
-        at = line.find_first_not_of(" \t", at);
-        if (at == std::string::npos) return numbers;
-        const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-        numbers.push_back(number_of(std::string_view(line).substr(at, end - at)));
-        at = end;
-    }
+    Words words{std::string_view(line).substr(name)};
+    for (auto word = words.next(); !word.empty(); word = words.next())
+        numbers.push_back(number_of(word));
+    return numbers;
 }
 
 } // namespace detail

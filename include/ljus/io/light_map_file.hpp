@@ -35,8 +35,7 @@ inline void put_grid(Bytes& bytes, const PatchGrid& grid) {
         put_number(bytes, number);
 }
 
-// Reads the next grid of a file, except its member `first`; nothing if its numbers are
-// not valid.
+// Reads the next grid, except its member `first`; nothing if a number is not valid.
 [[nodiscard]] inline std::optional<PatchGrid> take_grid(FileReader& file) {
     PatchGrid grid;
     grid.object.type = file.take<std::uint32_t>();
@@ -83,10 +82,8 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     save_file(path, bytes);
 }
 
-/// Loads a light map.
-/// \param path  The file.
-/// \param key   The key that the file must have, from light_map_key().
-/// \param most  The largest number of patches.
+/// Loads a light map of at most `most` patches. The file must have the key `key`, from
+/// light_map_key().
 /// \return The map, equal to the saved one in every bit.
 /// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
 ///         ..." if the scene or the settings differ; otherwise as open_file().
@@ -115,7 +112,7 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
     file.require_left(patches, detail::light_bytes, "patches");
     for (std::size_t i = 0; i < patches; ++i) {
         const auto light = file.take_vector<RgbT<double>>();
-        const double least = std::min(light.x, std::min(light.y, light.z));
+        const double least = std::min({light.x, light.y, light.z});
         if (!is_finite(light) || !(least >= 0))
             file.refuse("it has irradiance that is not finite or is below 0");
         map.irradiance.push_back(light);

@@ -38,10 +38,9 @@ namespace ljus {
 /// W/m^2 instead of lux. The intensities of point lights and spots are multiplied by
 /// the square of `scale`, so that the irradiance on surfaces does not depend on the
 /// scale.
-/// \param bytes     The bytes of the file.
-/// \param file      The path of the file, for messages. Buffers and pictures are looked
-///                  for in its folder.
-/// \param settings  Scale and normals.
+///
+/// `file` is the path of the file, for messages; buffers and pictures are looked for in
+/// its folder.
 /// \return The content of the file. Its report says what is wrong or not used: skins,
 ///         animations, morph targets, tangents, alphaMode BLEND, the scale of normals,
 ///         other extensions.
@@ -67,10 +66,8 @@ template <std::floating_point T = float>
         });
 }
 
-/// Loads a glTF file.
-/// \return As read_gltf().
-/// \throws std::runtime_error  as read_gltf(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads a glTF file; see read_gltf().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_gltf(const std::string& path,
                                        const MeshFileSettings& settings = {}) {

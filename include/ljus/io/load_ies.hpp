@@ -47,8 +47,7 @@ struct IesReader {
 
     /// Throws an exception that names the file and the current line.
     [[noreturn, gnu::cold]] void refuse_line(std::string_view why) const {
-        throw std::runtime_error(
-            join({shown_path(file), ": line ", to_text(line), ": ", why, "."}));
+        refuse_file(file, join({"line ", to_text(line), ": ", why}));
     }
     std::string_view take() {
         ++line;
@@ -104,8 +103,8 @@ struct IesGrid {
     std::vector<double> vertical{};   ///< Vertical angles in degrees.
     std::vector<double> candela{};    ///< Intensities in cd.
 
-    /// Appends a column of another grid, which has the same vertical angles.
-    /// \param angle  The horizontal angle that the column gets here.
+    /// Appends a column of a grid with the same vertical angles, at the horizontal
+    /// angle `angle`.
     void append(double angle, const IesGrid& from, std::size_t column) {
         horizontal.push_back(angle);
         for (std::size_t i = 0; i < vertical.size(); ++i)
@@ -120,9 +119,8 @@ struct IesGrid {
     }
 };
 
-/// Completes the intensities by symmetry. The range of the horizontal angles says which
-/// symmetry the lamp has.
-/// \param around  Whether the horizontal angles go around the axis, as in type C.
+/// Completes the intensities by the symmetry that the range of the horizontal angles
+/// implies. If `around`, these angles go around the axis, as in type C.
 /// \return The range that the angles should have, in words; null if the range is valid.
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();
@@ -247,9 +245,8 @@ struct IesGrid {
     return lamp;
 }
 
-/// Loads an IES file.
-/// \throws std::runtime_error  as read_ies(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads an IES file; see read_ies().
+/// \throws std::runtime_error  also if the file cannot be read.
 [[nodiscard]] inline IesLamp load_ies(const std::string& path) {
     return read_ies(detail::load_text(path, detail::max_ies_file), path);
 }

@@ -3,10 +3,9 @@
 /// \file ljus/io/load_image.hpp
 /// \brief Loads PNG, JPEG and BMP pictures, in linear colours.
 ///
-/// The pictures are decoded by stb_image. This header compiles the implementation of
-/// stb_image, hidden from other files. A program that compiles stb_image in the *same*
-/// file must include stb_image before this header. Without stb_image, loading a picture
-/// throws an error that says so.
+/// This header compiles stb_image, hidden from other files. A program that compiles
+/// stb_image in the *same* file must include stb_image before this header. Without
+/// stb_image, loading a picture throws.
 
 #include "ljus/io/detail/stb_memory.hpp"
 
@@ -143,9 +142,9 @@ inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
     return profile;
 }
 
-// Decodes the bytes of a picture, and calls refuse(why) for an error. `wanted` is the
-// number of bytes per pixel. `colors` says whether the bytes are used as sRGB colours.
-// `others` is explained in decode_image().
+// Decodes a picture into `wanted` bytes per pixel, and calls refuse(why) for an error.
+// `colors` says whether the bytes are used as sRGB colours. For `others` see
+// decode_image().
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,
                           Refuse refuse) {
@@ -161,7 +160,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
                                 : jpeg ? jpeg_trouble(bytes)
                                        : nullptr)
         refuse(join({"is damaged: ", why}));
-    if (png && png_number(bytes, 12) == 0x43674249u) // CgBI
+    if (png && stands_at(bytes, 12, "CgBI"))
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
     const std::string says = png    ? png_other_colors(bytes, unpack_profile)
@@ -190,7 +189,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
             refuse(why);
     };
     // stb_image would call a PNG file damaged that is only too large.
-    if (png && png_number(bytes, 12) == 0x49484452u)
+    if (png && stands_at(bytes, 12, "IHDR"))
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
     if (png) picture.gamma = png_gamma(bytes);
@@ -220,7 +219,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // may quote bytes of the file
-    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error", 48)}));
+    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error")}));
     return picture;
 }
 #endif
@@ -230,9 +229,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// Decodes a picture.
 /// \param bytes   The file.
 /// \param path    The path of the file, for messages.
-/// \param others  The number of pixels in all pictures that the caller keeps already.
-///                All pictures together are limited, because a file of four kilobytes
-///                can have thirty million pixels.
+/// \param others  The number of pixels in all pictures that the caller keeps already;
+///                with these, a picture may have at most 2^25.
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright

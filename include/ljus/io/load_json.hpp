@@ -46,8 +46,7 @@ namespace detail {
 /// The largest file that load_json() accepts, in bytes.
 inline constexpr std::size_t max_scene_file = std::size_t(1) << 26;
 
-/// The largest number of soap films. The colours of each film take a tenth of a second
-/// to compute.
+/// The largest number of soap films. Each takes a tenth of a second to compute.
 inline constexpr std::size_t max_soap_films = 16;
 
 inline constexpr JsonMember camera_members[]{
@@ -120,8 +119,7 @@ void read_image_size(const JsonField& field, LoadedSceneT<T>& loaded) {
     loaded.width = static_cast<int>(in.number("width"));
     loaded.height = static_cast<int>(in.number("height"));
     if (loaded.width > max_pixels / loaded.height)
-        refuse(field, std::string("has more than ").append(std::to_string(max_pixels)) +
-                          " pixels");
+        refuse(field, join({"has more than ", to_text(max_pixels), " pixels"}));
     if (in.has("pixel_filter") && text(in["pixel_filter"]).substr(0, 3) != "box")
         refuse_value(in["pixel_filter"],
                      "\"box\", the only filter that scene files support");
@@ -150,9 +148,8 @@ inline void require_lights(const JsonField& objects, std::size_t lights) {
         refuse(objects, "has no light; give an object an emission above 0, or add a "
                         "list of lights");
     if (lights > 65535)
-        refuse(objects, std::string("has ")
-                            .append(std::to_string(lights))
-                            .append(" lights; it must have at most 65535"));
+        refuse(objects, join({"has ", std::to_string(lights),
+                              " lights; it must have at most 65535"}));
 }
 
 template <std::floating_point T, typename LoadMeshes>
@@ -164,33 +161,25 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
     loaded.camera = read_camera<T>(in["camera"]);
     read_image_size(in["image"], loaded);
     const auto materials = read_materials(in["materials"], loaded.scene);
-    const LampGroups groups =
-        in.has("lamp_groups") ? LampGroups(in["lamp_groups"]) : LampGroups();
-    const JsonField objects = in["objects"];
+    const LampGroups groups(in);
     FileMeshesT<T> meshes;
-    for (std::size_t i = 0; i < list_size(objects); ++i)
-        read_object(entry(objects, i), materials, groups, loaded.scene, meshes,
-                    load_meshes);
-    if (in.has("lights"))
-        for (std::size_t i = 0; i < list_size(in["lights"]); ++i)
-            read_light(entry(in["lights"], i), groups, loaded.scene, load_meshes);
-    if (in.has("fog"))
-        for (std::size_t i = 0; i < list_size(in["fog"]); ++i)
-            read_fog(entry(in["fog"], i), loaded.scene);
-    require_lights(objects, loaded.scene.light_count());
+    for (const JsonField& object : entries(in["objects"]))
+        read_object(object, materials, groups, loaded.scene, meshes, load_meshes);
+    for (const JsonField& light : entries(find(top, "lights")))
+        read_light(light, groups, loaded.scene, load_meshes);
+    for (const JsonField& fog : entries(find(top, "fog"))) read_fog(fog, loaded.scene);
+    require_lights(in["objects"], loaded.scene.light_count());
     return loaded;
 }
 
 } // namespace detail
 
-/// Reads a scene from the text of a scene file.
-/// \param source  The text.
-/// \param file    The path of the file, for messages. Other files are looked for in its
-///                folder.
-/// \param load_meshes  Reads mesh files, for example MeshFiles. Called as
-///                     load_meshes(path, scale, normals), once for each combination of
-///                     these, and returns a vector of meshes. WithExr also reads EXR
-///                     pictures.
+/// Reads a scene from the text of a scene file. `file` is its path, for messages; other
+/// files are looked for in its folder.
+///
+/// `load_meshes` reads mesh files, for example MeshFiles. It is called as
+/// load_meshes(path, scale, normals), once for each combination of these, and returns a
+/// vector of meshes. WithExr also reads EXR pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is
@@ -203,11 +192,8 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
     return detail::read_scene<T>({root, file, root}, load_meshes);
 }
 
-/// Loads a scene file.
-/// \param path  The file.
-/// \param load_meshes  As in read_json_scene(): MeshFiles, WithExr, or nothing.
-/// \throws std::runtime_error  as read_json_scene(), or with path and reason if the
-///         file cannot be read.
+/// Loads a scene file; see read_json_scene().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {

@@ -28,9 +28,8 @@ template <std::floating_point T = float>
     if (is(".ply")) return load_ply<T>(path, settings);
     if (is(".stl")) return load_stl<T>(path, settings);
     if (is(".gltf") || is(".glb")) return load_gltf<T>(path, settings);
-    throw std::runtime_error(
-        shown_path(path) + ": the name of a mesh file ends in .obj, .ply, .stl, .gltf "
-                           "or .glb.");
+    detail::refuse_file(
+        path, "the name of a mesh file ends in .obj, .ply, .stl, .gltf or .glb");
 }
 
 /// Reads the mesh files that a scene file names: load_json("scene.json", MeshFiles{}).
@@ -41,11 +40,8 @@ struct MeshFilesT {
     std::string* report = nullptr; ///< Receives the problems of the files, one per
                                    ///< line; null: they are ignored.
 
-    /// Reads one file.
-    /// \param path     The file.
-    /// \param scale    Every coordinate is multiplied by this.
-    /// \param normals  "file", "smooth" or "flat".
-    /// \return All meshes of the file.
+    /// Reads all meshes of a file. `scale` multiplies every coordinate; `normals` is
+    /// "file", "smooth" or "flat".
     /// \throws std::runtime_error  as load_mesh().
     [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
                                                    double scale,
@@ -56,9 +52,7 @@ struct MeshFilesT {
         return meshes;
     }
 
-    /// Reads one file with its materials.
-    /// \return The content of the file. Lights of the file are not used, and are
-    ///         mentioned in the report.
+    /// Reads a file with its materials. Its lights are not used; the report says so.
     /// \throws std::runtime_error  as load_mesh().
     [[nodiscard]] LoadedMeshT<T> with_materials(const std::string& path, double scale,
                                                 const std::string& normals) const {

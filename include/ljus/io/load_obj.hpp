@@ -32,8 +32,7 @@ namespace ljus {
 
 namespace detail {
 
-// The path of a file that another file names, with slashes for the backslashes of
-// Windows: "maps\wall.png".
+// As path_beside(), for names that may have the backslashes of Windows.
 inline std::string file_named(const std::string& beside, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return path_beside(beside, name);
@@ -270,8 +269,7 @@ public:
         });
     }
 
-    // Returns the faces by material, in the order in which materials are first used,
-    // and completes the report.
+    // Returns the faces and the report; see MeshBuilder::take_faces().
     std::vector<MeshFacesT<T>> take_faces(MeshReport& report) {
         std::vector<const MeshMaterial*> known(names_.size() + 1); // nullptr: no
                                                                    // material
@@ -305,7 +303,7 @@ private:
             mesh_.add_normal(three_numbers(words));
         else if (keyword == "vt")
             texture(words);
-        else if (keyword == "f" || keyword == "fo") // in old files
+        else if (keyword == "f")
             face(words);
         else if (keyword == "usemtl")
             use(words.name());
@@ -317,8 +315,7 @@ private:
             ++mesh_.report.content.objects;
         else if (keyword == "g")
             ++mesh_.report.content.groups;
-        else if (is_one_of(keyword, {"l", "p", "curv", "curv2", "surf", "bsp", "bzp",
-                                     "cdc", "cdp"}))
+        else if (is_one_of(keyword, no_faces))
             mesh_.report.add(MeshTrouble::no_face, mesh_.place);
         else if (!is_one_of(keyword, without_effect))
             unused_.add(keyword, mesh_.place);
@@ -371,12 +368,13 @@ private:
         mesh_.end_face();
     }
 
-    // Keywords of curves, and of the way in which other programs draw faces.
+    static constexpr std::string_view no_faces[]{"l", "p", "curv", "curv2", "surf"};
+    // Keywords within curves and surfaces, and settings for displays.
     static constexpr std::string_view without_effect[]{
-        "",       "vp",     "cstype",     "deg",      "bmat", "step",  "parm",
-        "trim",   "hole",   "scrv",       "sp",       "end",  "con",   "res",
-        "mg",     "bevel",  "c_interp",   "d_interp", "lod",  "ctech", "stech",
-        "maplib", "usemap", "shadow_obj", "trace_obj"};
+        "",      "vp",    "cstype", "deg",      "bmat",       "step",
+        "parm",  "trim",  "hole",   "scrv",     "sp",         "end",
+        "con",   "mg",    "bevel",  "c_interp", "d_interp",   "lod",
+        "ctech", "stech", "maplib", "usemap",   "shadow_obj", "trace_obj"};
 
     const std::string& file_; // the path; material files are in its folder
     UnusedLines unused_{};
@@ -386,7 +384,6 @@ private:
     std::map<std::string, Name> names_{};
 };
 
-// The bytes of a picture file.
 inline Bytes picture_file(const std::string& path) {
     return load_file(path, max_image_file);
 }
@@ -410,11 +407,8 @@ LoadedMeshT<T> read_obj_pieces(const std::string& file,
 } // namespace detail
 
 /// Reads meshes from the text of an OBJ file. All faces of one material form one mesh.
-/// A face with more than three corners is cut into triangles by cut_polygon().
-/// \param text      The text.
-/// \param file      The path of the file, for messages. Material files are looked for
-///                  in its folder.
-/// \param settings  Scale and normals.
+/// A face with more than three corners is cut into triangles. `file` is the path of the
+/// file, for messages; material files are looked for in its folder.
 /// \return The meshes, and a report of the problems of the file. Elements of the file
 ///         that cannot be used are left out and counted.
 /// \throws std::runtime_error  with one sentence, if no face can be used, or if a mesh
@@ -428,10 +422,8 @@ template <std::floating_point T = float>
                                       [&](auto& reader) { reader.read(text, true); });
 }
 
-/// Loads an OBJ file.
-/// \return As read_obj().
-/// \throws std::runtime_error  as read_obj(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads an OBJ file; see read_obj().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_obj(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -18,7 +18,6 @@ namespace ljus {
 
 namespace detail {
 
-// A number type of PLY files.
 struct PlyType {
     std::string_view name, other_name; // in old files, in newer files
     std::size_t size;                  // bytes
@@ -73,9 +72,7 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view why) const {
-        throw std::runtime_error(join({shown_path(file_), ": ", why, "."}));
-    }
+    [[noreturn]] void refuse(std::string_view why) const { refuse_file(file_, why); }
 
     PlyType type_of(std::string_view name) const {
         for (const PlyType& type : ply_types)
@@ -95,8 +92,7 @@ private:
             Words words{line};
             const std::string_view keyword = words.next();
             if (keyword == "end_header") {
-                // If lines end in CR alone, an LF that follows belongs to the binary
-                // numbers.
+                // If lines end in CR alone, a following LF belongs to the numbers.
                 const std::size_t used = line.size() + 1;
                 const auto from = static_cast<std::size_t>(line.data() - all.data());
                 if (cr) rest_ = all.substr(std::min(from + used, all.size()));
@@ -236,7 +232,6 @@ private:
         return property.count &&
                (property.name == "vertex_indices" || property.name == "vertex_index");
     }
-    // Notes which properties of vertices and faces are not used.
     void note_unused(const PlyElement& element, const PlyVertex& has) {
         std::string unused;
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
@@ -355,10 +350,8 @@ template <std::floating_point T = float>
         read, detail::no_pictures);
 }
 
-/// Loads a PLY file.
-/// \return As read_ply().
-/// \throws std::runtime_error  as read_ply(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads a PLY file; see read_ply().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_ply(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -19,17 +19,16 @@ namespace detail {
 // The size of a binary file's header, and of one triangle, in bytes.
 inline constexpr std::size_t stl_head = 84, stl_triangle = 50;
 
-// The bytes of an STL file.
-struct StlText {
-    std::string_view text;
-    const std::string& file;
+// Reads the faces of an STL file.
+template <std::floating_point T>
+struct StlReader {
+    std::string_view text;   // the whole file
+    const std::string& file; // its path
+    MeshBuilder<T>& mesh;
+    MeshReport& report = mesh.report;
+    std::vector<glm::dvec3> face{}; // corners read so far
+    EqualPoints<double> numbers{};  // indices of positions
 
-    [[noreturn]] void refuse(std::string_view why) const {
-        throw std::runtime_error(join({shown_path(file), ": ", why, "."}));
-    }
-    [[nodiscard]] std::uint32_t word(std::size_t at) const {
-        return static_cast<std::uint32_t>(unsigned_value(text.substr(at, 4)));
-    }
     // Whether the file is a text. Some binary files begin with "solid" as well, but
     // some byte of their header is 0: at least one byte of the number of triangles.
     [[nodiscard]] bool is_text() const {
@@ -38,17 +37,10 @@ struct StlText {
         return begin != plain.npos && same_word(plain.substr(begin, 5), "solid") &&
                text.substr(0, stl_head).find('\0') == text.npos;
     }
-};
-
-// Reads the faces of an STL file.
-template <std::floating_point T>
-struct StlReader {
-    StlText from;
-    MeshBuilder<T>& mesh;
-    MeshReport& report = mesh.report;
-    std::vector<glm::dvec3> face{}; // corners read so far
-    EqualPoints<double> numbers{};  // indices of positions
-
+    // The unsigned number in `bytes` bytes of a binary file.
+    [[nodiscard]] std::size_t word(std::size_t at, std::size_t bytes) const {
+        return unsigned_value(text.substr(at, bytes));
+    }
     // Adds a corner. All points that are not finite become equal, for EqualPoints.
     void add(const glm::dvec3& point) {
         constexpr double none = std::numeric_limits<double>::infinity();
@@ -71,24 +63,24 @@ struct StlReader {
     }
     // A point or a normal of a binary file.
     [[nodiscard]] glm::dvec3 three_floats(std::size_t at) const {
-        glm::dvec3 three;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            three[static_cast<int>(axis)] =
-                binary_number(from.text.substr(at + 4 * axis, 4), 'f');
-        return three;
+        const auto number = [&](std::size_t i) {
+            return binary_number(text.substr(at + 4 * i, 4), 'f');
+        };
+        return {number(0), number(1), number(2)};
     }
     void read_binary() {
-        if (from.text.size() < stl_head)
-            from.refuse("it is neither a text that begins with 'solid' nor a binary "
+        if (text.size() < stl_head)
+            refuse_file(file,
+                        "it is neither a text that begins with 'solid' nor a binary "
                         "STL file, whose head has 84 bytes");
-        const std::size_t count = from.word(80);
-        const std::size_t room = (from.text.size() - stl_head) / stl_triangle;
+        const std::size_t count = word(80, 4);
+        const std::size_t room = (text.size() - stl_head) / stl_triangle;
         if (count > room)
-            from.refuse(join({"its head says that it has ", std::to_string(count),
-                              " triangles, but there are bytes for ",
-                              std::to_string(room), " only"}));
+            refuse_file(file, join({"its head says that it has ", std::to_string(count),
+                                    " triangles, but there are bytes for ",
+                                    std::to_string(room), " only"}));
         report.unit = "triangle";
-        if (const std::size_t more = from.text.size() - stl_head - stl_triangle * count;
+        if (const std::size_t more = text.size() - stl_head - stl_triangle * count;
             more > 0)
             report.notes.push_back(
                 join({"the file goes on for ", std::to_string(more),
@@ -99,7 +91,7 @@ struct StlReader {
             const std::size_t at = stl_head + stl_triangle * i;
             for (std::size_t k = 1; k < 4; ++k) add(three_floats(at + 12 * k));
             end_face(three_floats(at), i + 1);
-            colors = colors || (from.word(at + 46) >> 16) != 0;
+            colors = colors || word(at + 48, 2) != 0;
         }
         if (colors)
             report.notes.push_back(
@@ -108,26 +100,25 @@ struct StlReader {
     void read_text() {
         bool open = false; // whether a solid has not ended
         glm::dvec3 normal(0);
-        LineReader{from.file}.read(
-            from.text, true, [&](std::string_view line, long long number) {
-                Words words{line};
-                const std::string_view keyword = words.next();
-                if (same_word(keyword, "vertex")) {
-                    add(three_numbers(words));
-                } else if (same_word(keyword, "endloop")) {
-                    end_face(normal, static_cast<std::size_t>(number));
-                } else if (same_word(keyword, "facet")) {
-                    (void)words.next(); // "normal"
-                    normal = three_numbers(words);
-                } else if (same_word(keyword, "solid")) {
-                    ++report.content.objects;
-                    open = true;
-                } else if (same_word(keyword, "endsolid")) {
-                    open = false;
-                }
-            });
+        LineReader{file}.read(text, true, [&](std::string_view line, long long number) {
+            Words words{line};
+            const std::string_view keyword = words.next();
+            if (same_word(keyword, "vertex")) {
+                add(three_numbers(words));
+            } else if (same_word(keyword, "endloop")) {
+                end_face(normal, static_cast<std::size_t>(number));
+            } else if (same_word(keyword, "facet")) {
+                (void)words.next(); // "normal"
+                normal = three_numbers(words);
+            } else if (same_word(keyword, "solid")) {
+                ++report.content.objects;
+                open = true;
+            } else if (same_word(keyword, "endsolid")) {
+                open = false;
+            }
+        });
         if (!face.empty())
-            from.refuse("the file ends within a triangle, before its 'endloop'");
+            refuse_file(file, "the file ends within a triangle, before its 'endloop'");
         if (open)
             report.notes.push_back(
                 "the file ends before 'endsolid': perhaps it is cut off.");
@@ -152,8 +143,8 @@ template <std::floating_point T = float>
         {
             const Bytes own = std::move(bytes); // freed before the meshes are made
             detail::StlReader<T> reader{
-                {{reinterpret_cast<const char*>(own.data()), own.size()}, file}, mesh};
-            reader.from.is_text() ? reader.read_text() : reader.read_binary();
+                {reinterpret_cast<const char*>(own.data()), own.size()}, file, mesh};
+            reader.is_text() ? reader.read_text() : reader.read_binary();
         }
         auto parts = mesh.take_faces({nullptr});
         loaded.report = std::move(mesh.report);
@@ -165,10 +156,8 @@ template <std::floating_point T = float>
         detail::no_pictures);
 }
 
-/// Loads an STL file.
-/// \return As read_stl().
-/// \throws std::runtime_error  as read_stl(); or, if the file cannot be read, with its
-///         name and the reason.
+/// Loads an STL file; see read_stl().
+/// \throws std::runtime_error  also if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -151,8 +151,7 @@ using MeshMetalDetailed = MeshDetailedT<Glossy>;
 
 namespace detail {
 
-// The pixels of a material's picture; nullptr if there is no picture, or it could not
-// be read.
+// The pixels of a picture; nullptr if there is none, or it could not be read.
 template <std::floating_point T>
 const ImageT<T>* find_picture(const LoadedMeshT<T>& loaded, const MeshImage& image) {
     const auto found = loaded.pictures.find(image.name);
@@ -187,12 +186,9 @@ MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
 
 } // namespace detail
 
-/// Adds a material of a mesh file to a scene, as add_meshes() does.
-/// \tparam Map    The type of map in the picture materials of the scene; void means
-///                UvMapT.
-/// \param scene   A scene that lists Lambertian.
-/// \param is      The material.
-/// \param loaded  The content of the file, with the pictures of the material.
+/// Adds a material of the file `loaded` to a scene that lists Lambertian; see
+/// add_meshes().
+/// \tparam Map  The type of map in the picture materials of the scene; void: UvMapT.
 /// \return The number of the material in the scene.
 template <typename Map = void, typename Scene, std::floating_point T>
 MaterialId add_material(Scene& scene, const MeshMaterial& is,
@@ -233,17 +229,15 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
     return scene.add(matt);
 }
 
-/// Adds all meshes of a file to a scene, with the materials of the file.
+/// Adds all meshes of a file to a scene that lists Mesh and Lambertian, with the
+/// materials of the file.
 ///
 /// Glass, mirrors and rough metals need a scene that lists Glass, Mirror and Glossy;
 /// otherwise they become Lambertian, in their own colour. Pictures need MeshPicture or,
 /// for metals, MeshMetalPicture or MeshMetalDetailed. Holes and normal maps need
 /// MeshDetailed or MeshMetalDetailed. A mesh with emission is a lamp, and has no holes
 /// or normal map. Lights of the file are added if the scene lists their types.
-/// \tparam Map    The type of map in the picture materials of the scene; void means
-///                UvMapT.
-/// \param scene   A scene that lists Mesh and Lambertian.
-/// \param loaded  The result of load_obj(), load_ply(), load_stl() or load_gltf().
+/// \tparam Map  The type of map in the picture materials of the scene; void: UvMapT.
 template <typename Map = void, typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
     for (const MeshPartT<T>& part : loaded.parts)
@@ -259,11 +253,8 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
     add_lights(loaded.suns);
 }
 
-/// Adds all meshes of a file to a scene, with one material for all of them.
-/// \param scene     A scene that lists Mesh.
-/// \param loaded    The result of load_obj(), load_ply(), load_stl() or load_gltf().
-/// \param material  The number that Scene::add() returned for the material.
-/// \param radiance  Radiance that each mesh emits, in W/(m^2 sr).
+/// Adds all meshes of a file to a scene that lists Mesh, with one material for all of
+/// them. Each mesh emits `radiance`, in W/(m^2 sr).
 template <typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
                 const RgbT<T>& radiance = RgbT<T>{0}) {
@@ -292,7 +283,6 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
 
 /// Describes the content of a mesh file: the numbers of its elements, the materials
 /// that add_meshes() makes, and each problem with its position in the file.
-/// \return Lines of text. Each ends with a line feed.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string to_text(const LoadedMeshT<T>& loaded) {
     const MeshContent& has = loaded.report.content;
@@ -309,39 +299,25 @@ template <std::floating_point T>
         std::snprintf(text.data(), text.size(), "%.6g", number);
         return std::string(text.data());
     };
-    std::string text = detail::join(
-        {"  vertices   ",
-         to_text(has.vertices),
-         ", ",
-         to_text(has.unused),
-         " of them in no face; ",
-         to_text(has.normals),
-         " normals, ",
-         to_text(has.uvs),
-         " texture coordinates\n  groups     ",
-         to_text(has.groups),
-         " in ",
-         to_text(has.objects),
-         " objects\n  faces      ",
-         to_text(has.faces),
-         ", ",
-         to_text(has.polygons),
-         " of them with more than three corners, which are cut; ",
-         to_text(has.flat_faces),
-         " without normals, ",
-         to_text(has.no_uv_faces),
-         " without texture coordinates\n  triangles  ",
-         to_text(triangles),
-         "\n  box        ",
-         to_text(box.low),
-         " to ",
-         to_text(box.high),
-         "\n  area       ",
-         digits(area),
-         "\n  closed     ",
-         has.closed ? "yes; volume " + digits(has.volume) : "no",
-         has.closed && has.volume < 0 ? ": the faces look inwards, it is inside out\n"
-                                      : "\n"});
+    using detail::join;
+    std::string text =
+        join({"  vertices   ", to_text(has.vertices), ", ", to_text(has.unused),
+              " of them in no face; ", to_text(has.normals), " normals, ",
+              to_text(has.uvs), " texture coordinates"});
+    text += join({"\n  groups     ", to_text(has.groups), " in ", to_text(has.objects),
+                  " objects"});
+    text += join({"\n  faces      ", to_text(has.faces), ", ", to_text(has.polygons),
+                  " of them with more than three corners, which are cut; ",
+                  to_text(has.flat_faces), " without normals, ",
+                  to_text(has.no_uv_faces), " without texture coordinates"});
+    text += "\n  triangles  " + to_text(triangles);
+    text += join({"\n  box        ", to_text(box.low), " to ", to_text(box.high)});
+    text += "\n  area       " + digits(area);
+    text += "\n  closed     " +
+            (has.closed ? "yes; volume " + digits(has.volume) : std::string("no"));
+    if (has.closed && has.volume < 0)
+        text += ": the faces look inwards, it is inside out";
+    text += "\n";
     for (const MeshPartT<T>& part : loaded.parts)
         text += "  material   " +
                 (part.material.name.empty() ? "(none)" : shown(part.material.name)) +
@@ -354,9 +330,8 @@ template <std::floating_point T>
                                         {"spots", loaded.spots.size()},
                                         {"suns", loaded.suns.size()}})
         if (count > 0)
-            text +=
-                detail::join({"  lights     ", to_text(static_cast<long long>(count)),
-                              " ", lights, "\n"});
+            text += join({"  lights     ", to_text(static_cast<long long>(count)), " ",
+                          lights, "\n"});
     const std::string odd = to_text(loaded.report);
     return text + (odd.empty() ? "nothing is odd\n" : "odd:\n" + odd);
 }

@@ -55,23 +55,19 @@ inline constexpr std::size_t mesh_troubles = 21;
 /// The number of occurrences of a problem.
 struct MeshCount {
     long long count = 0; ///< Number of occurrences.
-    /// The first occurrence: the number of a line, or of another MeshReport::unit, from
-    /// 1.
-    long long line = 0;
+    long long line = 0;  ///< The first occurrence, from 1; see MeshReport::unit.
 };
 
 /// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
-    long long vertices = 0; ///< Number of positions: the lines v of an OBJ file.
-    long long normals = 0;  ///< Number of normals: the lines vn.
-    long long uvs = 0;      ///< Number of texture coordinates: the lines vt.
-    long long objects = 0;  ///< Number of objects: the lines o.
-    long long groups = 0;   ///< Number of groups: the lines g.
-    long long faces = 0;    ///< Number of faces that are used.
-    /// Number of faces with more than three corners.
-    long long polygons = 0;
-    /// Number of faces whose normals are missing or not used.
-    long long flat_faces = 0;
+    long long vertices = 0;    ///< Number of positions: the lines v of an OBJ file.
+    long long normals = 0;     ///< Number of normals: the lines vn.
+    long long uvs = 0;         ///< Number of texture coordinates: the lines vt.
+    long long objects = 0;     ///< Number of objects: the lines o.
+    long long groups = 0;      ///< Number of groups: the lines g.
+    long long faces = 0;       ///< Number of faces that are used.
+    long long polygons = 0;    ///< Number of faces with more than three corners.
+    long long flat_faces = 0;  ///< Number of faces without usable normals.
     long long no_uv_faces = 0; ///< Number of faces without usable texture coordinates.
     long long unused = 0;      ///< Number of vertices that no triangle uses.
     bool closed = false; ///< Whether each edge has two faces with the same winding.
@@ -101,9 +97,8 @@ struct MeshReport {
     }
 };
 
-/// A report as text, one line per problem, such as "line 12: 3 faces have no area;
-/// ...".
-/// \return Lines that end with a line feed; empty if there are no problems.
+/// A report as text. Each problem has a line that ends with a line feed, such as
+/// "line 12: 3 faces have no area; ...".
 [[nodiscard]] inline std::string to_text(const MeshReport& report) {
     constexpr std::array<const char*, detail::mesh_troubles> words{
         "vertices have coordinates that are not finite numbers; their faces are left "
@@ -135,14 +130,9 @@ struct MeshReport {
     std::string text;
     for (std::size_t i = 0; i < detail::mesh_troubles; ++i)
         if (report.counts[i].count > 0)
-            text.append(report.unit)
-                .append(" ")
-                .append(std::to_string(report.counts[i].line))
-                .append(": ")
-                .append(std::to_string(report.counts[i].count))
-                .append(" ")
-                .append(words[i])
-                .append(".\n");
+            text +=
+                detail::join({report.unit, " ", to_text(report.counts[i].line), ": ",
+                              to_text(report.counts[i].count), " ", words[i], ".\n"});
     for (const std::string& note : report.notes) text.append(note).append("\n");
     return text;
 }

@@ -33,12 +33,9 @@ void save_pfm(const ImageT<T>& image, const std::string& path) {
     for (int y = image.height - 1; y >= 0; --y)
         for (int x = 0; x < image.width; ++x) {
             const RgbT<T>& c = pixel(image, x, y);
-            for (const T channel : {c.x, c.y, c.z}) {
-                const auto bits =
-                    std::bit_cast<std::uint32_t>(static_cast<float>(channel));
-                for (int shift = 0; shift < 32; shift += 8)
-                    bytes.push_back(static_cast<unsigned char>(bits >> shift & 0xffu));
-            }
+            for (const T channel : {c.x, c.y, c.z})
+                for (const auto byte : detail::bytes_of(static_cast<float>(channel)))
+                    bytes.push_back(byte);
         }
     save_file(path, bytes);
 }

@@ -94,7 +94,7 @@ arrays_of(const PhotonMap& map) noexcept {
 // The checksum of a map. It includes the header, except the checksum itself.
 [[nodiscard]] inline std::uint64_t map_checksum(const Bytes& front,
                                                 const PhotonMap& map, int threads) {
-    std::uint64_t all = checksum(front);
+    FieldHash all{checksum(front)};
     for (const auto& array : arrays_of(map)) {
         std::vector<std::uint64_t> sums((array.size() + checksum_piece - 1) /
                                         checksum_piece);
@@ -110,10 +110,9 @@ arrays_of(const PhotonMap& map) noexcept {
                 sums[i] = sum;
             },
             {.threads = threads});
-        for (const std::uint64_t sum : sums)
-            for (const unsigned char byte : bytes_of(sum)) all = fnv_hash(all, byte);
+        for (const std::uint64_t sum : sums) all.add(sum);
     }
-    return all;
+    return all.value;
 }
 
 // Whether the photons of a block are valid for make_photon_map(), and whether unused
@@ -175,7 +174,6 @@ public:
     MappableFile& operator=(const MappableFile&) = delete;
     ~MappableFile() { ::close(file_); }
 
-    // The size of the file in bytes.
     [[nodiscard]] std::size_t size() const {
         struct ::stat status = {};
         if (::fstat(file_, &status) != 0) fail_to_read(path_, std::strerror(errno));
@@ -213,11 +211,8 @@ private:
 
 } // namespace detail
 
-/// Saves a photon map; see save_file().
-/// \param path  The file.
-/// \param map   The map.
-/// \param key   A number by which the caller tells maps apart, such as a hash of the
-///              scene and the settings.
+/// Saves a photon map; see save_file(). By `key` the caller tells maps apart; it may be
+/// a hash of the scene and the settings.
 /// \throws std::runtime_error  as save_file().
 /// \cost 50 bytes per photon in the file; no further memory.
 inline void save_photon_map(const std::string& path, const PhotonMap& map,
@@ -251,10 +246,9 @@ struct PhotonMapFileSettings {
     int threads = 0;           ///< Threads for the check, as in ParallelSettings.
 };
 
-/// Opens a photon map in a file. The file is mapped into memory: a search reads the
-/// pages that it needs, and the system drops pages when memory is short. While the map
-/// is open, save_photon_map() may replace the file, but no program may write into the
-/// file or shorten it.
+/// Opens a photon map in a file, which is mapped into memory. While the map is open,
+/// save_photon_map() may replace the file, but no program may write into the file or
+/// shorten it.
 /// \return The map, equal to the saved one in every bit. The file stays mapped as long
 ///         as this map exists, or a map to which it is moved. A copy of the map does
 ///         not need the file.

@@ -3,10 +3,9 @@
 /// \file ljus/io/png.hpp
 /// \brief Saves pictures for a screen, as PNG files in sRGB with 8 bits per channel.
 ///
-/// The files are encoded by stb_image_write. This header compiles the implementation of
-/// stb_image_write, hidden from other files. A program that compiles stb_image_write in
-/// the *same* file must include stb_image_write before this header, or define
-/// `LJUS_NO_STB` to switch PNG off.
+/// This header compiles stb_image_write, hidden from other files. A program that
+/// compiles stb_image_write in the *same* file must include stb_image_write before this
+/// header, or define `LJUS_NO_STB` to switch PNG off.
 
 #include <cmath>
 #include <concepts>
@@ -97,7 +96,7 @@ template <std::floating_point T>
     const auto append = [](void* context, void* data, int size) {
         const auto* bytes = static_cast<const unsigned char*>(data);
         Bytes& whole = *static_cast<Bytes*>(context);
-        for (int i = 0; i < size; ++i) whole.push_back(bytes[i]);
+        whole.insert(whole.end(), bytes, bytes + size);
     };
     if (stbi_write_png_to_func(append, &file, image.width, image.height, 3,
                                screen.data(), 3 * image.width) == 0)

@@ -14,8 +14,7 @@ namespace ljus {
 ///
 /// A file has the header of \ref binary_file, with the block_side, width and height of
 /// the picture. Then follow the numbers of the state, the length of the text that
-/// describes the picture, and this text. save_file() replaces the older file in one
-/// step, so that the older or the newer file exists even if the program is killed.
+/// describes the picture, and this text.
 /// \{
 
 namespace detail {

@@ -3,8 +3,10 @@
 /// \file ljus/io/detail/byte_reader.hpp
 /// \brief Reads the bytes of an image file, for pfm.hpp and hdr.hpp.
 
+#include <charconv>
 #include <cstddef>
 #include <string>
+#include <system_error>
 
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/parse.hpp"
@@ -65,15 +67,14 @@ struct ByteReader {
 
     // The width or height that a word of the header gives.
     int size(const std::string& text) const {
-        long long value = 0;
-        for (const char c : text)
-            value = c < '0' || c > '9' || value > max_pixels ? 2 * max_pixels
-                                                             : 10 * value + (c - '0');
-        if (value < 1 || value > max_pixels)
+        int value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (stop != end || error != std::errc{} || value < 1 || value > max_pixels)
             fail("its width or height is '" + shown(text) +
                  "'; it must be a whole number from 1 to " +
                  std::to_string(max_pixels));
-        return static_cast<int>(value);
+        return value;
     }
 
     void require_pixels(int width, int height) const {

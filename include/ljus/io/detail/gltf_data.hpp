@@ -24,18 +24,16 @@ inline constexpr long long max_gltf_elements = 1LL << 25, max_gltf_zeros = 1LL <
 
 // The bytes of a text in base64. Blanks and = are ignored.
 inline Bytes from_base64(std::string_view text, const JsonField& field) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrs"
+                                         "tuvwxyz0123456789+/";
     Bytes bytes;
     std::uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
-        int value = -1;
-        if (c >= 'A' && c <= 'Z') value = c - 'A';
-        if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-        if (c >= '0' && c <= '9') value = c - '0' + 52;
-        if (c == '+') value = 62;
-        if (c == '/') value = 63;
         if (c == '=' || is_blank(c) || c == '\n' || c == '\r') continue;
-        if (value < 0) refuse(field, "has a letter that base64 does not have");
+        const std::size_t value = letters.find(c);
+        if (value == letters.npos)
+            refuse(field, "has a letter that base64 does not have");
         bits = bits << 6 | static_cast<std::uint32_t>(value);
         count += 6;
         if (count < 8) continue;
@@ -50,21 +48,26 @@ inline std::string path_of_uri(const JsonField& field) {
     const std::string& uri = text(field);
     if (uri.find("://") != uri.npos)
         refuse(field, "is an address; only files beside this one are read");
-    const auto digit = [](char c) {
-        const int small = c | 0x20;
-        return c >= '0' && c <= '9'           ? c - '0'
-               : small >= 'a' && small <= 'f' ? small - 'a' + 10
-                                              : -1;
-    };
     std::string name;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const int high = i + 2 < uri.size() ? digit(uri[i + 1]) : -1;
-        const int low = i + 2 < uri.size() ? digit(uri[i + 2]) : -1;
-        const bool coded = uri[i] == '%' && high >= 0 && low >= 0;
-        name += coded ? static_cast<char>(16 * high + low) : uri[i];
+        const char* const digits = uri.data() + i + 1;
+        unsigned code = 0;
+        const bool coded =
+            uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        name += coded ? static_cast<char>(code) : uri[i];
         i += coded ? 2 : 0;
     }
     return path_beside(field.file, name);
+}
+
+// Reads an index into a list of `count` entries, which messages call `list`.
+inline std::size_t index_in(const JsonField& field, std::size_t count,
+                            std::string_view list) {
+    if (count == 0)
+        refuse(field, join({"names one of ", list, ", but there are none"}));
+    return static_cast<std::size_t>(
+        whole_number(field, 0, static_cast<long long>(count) - 1));
 }
 
 // A glTF file: its JSON and, in a .glb file, the bytes that follow.
@@ -73,10 +76,6 @@ struct GltfFile {
     nlohmann::json json{};
     Bytes chunk{};
     bool has_chunk = false;
-
-    [[noreturn]] void refuse(std::string_view why) const {
-        throw std::runtime_error(join({shown_path(name), ": ", why, "."}));
-    }
 
     GltfFile(const Bytes& bytes, const std::string& file) : name(file) {
         const std::string_view all(reinterpret_cast<const char*>(bytes.data()),
@@ -88,22 +87,23 @@ struct GltfFile {
         const auto word = [&](std::size_t at) {
             return std::size_t(unsigned_value(all.substr(at, 4)));
         };
-        if (bytes.size() < 20) refuse("it ends within its head of 20 bytes");
+        if (bytes.size() < 20) refuse_file(name, "it ends within its head of 20 bytes");
         if (word(4) != 2)
-            refuse(join({"it is a binary glTF file of version ",
-                         std::to_string(word(4)), "; only 2 is known"}));
+            refuse_file(name, join({"it is a binary glTF file of version ",
+                                    std::to_string(word(4)), "; only 2 is known"}));
         if (word(8) > bytes.size())
-            refuse(join({"its head says that it has ", std::to_string(word(8)),
-                         " bytes, but it has ", std::to_string(bytes.size())}));
+            refuse_file(name,
+                        join({"its head says that it has ", std::to_string(word(8)),
+                              " bytes, but it has ", std::to_string(bytes.size())}));
         for (std::size_t at = 12; at + 8 <= word(8);) {
             const std::size_t size = word(at), kind = word(at + 4), from = at + 8;
             if (size > word(8) - from)
-                refuse(join({"its chunk at byte ", std::to_string(at),
-                             " says that it "
-                             "has ",
-                             std::to_string(size), " bytes, but ",
-                             std::to_string(word(8) - from), " are left"}));
-            if (at == 12 && kind != 0x4e4f534a) refuse("its first chunk must be JSON");
+                refuse_file(name, join({"its chunk at byte ", std::to_string(at),
+                                        " says that it has ", std::to_string(size),
+                                        " bytes, but ", std::to_string(word(8) - from),
+                                        " are left"}));
+            if (at == 12 && kind != 0x4e4f534a)
+                refuse_file(name, "its first chunk must be JSON");
             if (at == 12) json = parse_json(all.substr(from, size), name);
             if (at > 12 && kind == 0x004e4942 && !has_chunk) {
                 chunk.assign(bytes.begin() + std::ptrdiff_t(from),
@@ -119,12 +119,7 @@ struct GltfFile {
     [[nodiscard]] std::size_t number_in(const JsonField& field,
                                         const char* list) const {
         const auto all = find(root(), list);
-        const std::size_t count = all ? list_size(*all) : 0;
-        if (count == 0)
-            detail::refuse(field,
-                           join({"names one of ", list, ", but there are none"}));
-        return static_cast<std::size_t>(
-            whole_number(field, 0, static_cast<long long>(count) - 1));
+        return index_in(field, all ? list_size(*all) : 0, list);
     }
     [[nodiscard]] JsonField named(const JsonField& field, const char* list) const {
         return entry(member(root(), list), number_in(field, list));
@@ -137,7 +132,6 @@ inline std::size_t size_field(const JsonField& field, std::string_view name) {
     return found ? static_cast<std::size_t>(whole_number(*found, 0, 1LL << 40)) : 0;
 }
 
-// Reads the buffers, views and accessors of a file.
 class GltfData {
 public:
     explicit GltfData(const GltfFile& file) : file_(file) {}

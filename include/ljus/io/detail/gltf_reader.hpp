@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/gltf_reader.hpp
-/// \brief The reader of load_gltf(): it walks through the nodes of a scene and reads
-/// their meshes, cameras and lights.
+/// \brief Reads the meshes, cameras and lights of the nodes of a glTF scene.
 
 #include <numbers>
 #include <optional>
@@ -96,7 +95,7 @@ private:
     // Refuses an unknown extension, and says how to export the file without it.
     void require_known(const JsonField& required, JsonNames known) {
         const std::string& name = text(required);
-        if (std::find(known.begin(), known.end(), name) != known.end()) return;
+        if (is_one_of(name, known)) return;
         const auto has = [&](const char* word) { return name.find(word) != name.npos; };
         refuse(required,
                join({"is ", shown(name), ", which is not known: export the file again ",
@@ -116,50 +115,40 @@ private:
         const auto least = find(member(file_.root(), "asset"), "minVersion");
         if (least && text(*least) != "2.0")
             refuse_value(*least, "2.0, the version of glTF that is known");
-        const auto required = find(file_.root(), "extensionsRequired");
-        for (std::size_t i = 0; required && i < list_size(*required); ++i)
-            require_known(entry(*required, i), known);
+        for (const JsonField& name : entries(find(file_.root(), "extensionsRequired")))
+            require_known(name, known);
         // read_material() notes the extensions of materials.
-        const auto used = find(file_.root(), "extensionsUsed");
-        for (std::size_t i = 0; used && i < list_size(*used); ++i) {
-            const JsonField name = entry(*used, i);
+        for (const JsonField& name : entries(find(file_.root(), "extensionsUsed")))
             if (!text(name).starts_with("KHR_materials_") &&
-                std::find(std::begin(known), std::end(known), text(name)) ==
-                    std::end(known))
+                !is_one_of(text(name), known))
                 note(name, join({"is ", shown(text(name)),
                                  ", which is not known: what it adds is left out"}));
-        }
     }
 
-    // The top nodes of the scene; in a file without scenes, the nodes that are no
-    // children.
+    // The top nodes of the scene; without scenes, the nodes that are no children.
     std::vector<std::size_t> roots() const {
         const JsonField root = file_.root();
-        std::vector<std::size_t> found;
         const auto scenes = find(root, "scenes");
         if (scenes && list_size(*scenes) > 0) {
             const auto which = find(root, "scene");
-            const JsonField scene =
-                which ? file_.named(*which, "scenes") : entry(*scenes, 0);
-            const auto nodes = find(scene, "nodes");
-            for (std::size_t i = 0; nodes && i < list_size(*nodes); ++i)
-                found.push_back(file_.number_in(entry(*nodes, i), "nodes"));
-            return found;
+            return nodes_of(which ? file_.named(*which, "scenes") : entry(*scenes, 0),
+                            "nodes");
         }
-        const auto nodes = find(root, "nodes");
+        const std::vector<JsonField> nodes = entries(find(root, "nodes"));
         std::set<std::size_t> inner;
-        for (std::size_t i = 0; nodes && i < list_size(*nodes); ++i)
-            for (const std::size_t child : children_of(entry(*nodes, i)))
+        for (const JsonField& node : nodes)
+            for (const std::size_t child : nodes_of(node, "children"))
                 inner.insert(child);
-        for (std::size_t i = 0; nodes && i < list_size(*nodes); ++i)
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
             if (!inner.contains(i)) found.push_back(i);
         return found;
     }
-    std::vector<std::size_t> children_of(const JsonField& node) const {
+    // The indices of the nodes that a list of `parent` names.
+    std::vector<std::size_t> nodes_of(const JsonField& parent, const char* list) const {
         std::vector<std::size_t> found;
-        const auto children = find(node, "children");
-        for (std::size_t i = 0; children && i < list_size(*children); ++i)
-            found.push_back(file_.number_in(entry(*children, i), "nodes"));
+        for (const JsonField& number : entries(find(parent, list)))
+            found.push_back(file_.number_in(number, "nodes"));
         return found;
     }
     // Reads a node and all nodes below it, without recursion.
@@ -173,7 +162,7 @@ private:
                 refuse(node, "is below two nodes, or below itself");
             const glm::dmat4 place = above * matrix_of(node);
             read_node(node, place);
-            const std::vector<std::size_t> below = children_of(node);
+            const std::vector<std::size_t> below = nodes_of(node, "children");
             for (std::size_t i = below.size(); i > 0; --i)
                 open.push_back({below[i - 1], place});
         }
@@ -210,9 +199,8 @@ private:
             for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = all[std::size_t(i)];
             for (int i = 0; i < 4; ++i)
                 if (matrix[i][3] != (i == 3 ? 1 : 0))
-                    refuse_value(*field,
-                                 "a matrix whose last row, every fourth number, "
-                                 "is 0, 0, 0, 1");
+                    refuse_value(*field, "a matrix whose last row, every fourth "
+                                         "number, is 0, 0, 0, 1");
             return matrix;
         }
         if (const auto field = find(node, "rotation")) {
@@ -238,9 +226,8 @@ private:
             const JsonField is = file_.named(*mesh, "meshes");
             ++mesh_.report.content.objects;
             if (find(node, "skin")) ++skins_;
-            const JsonField primitives = member(is, "primitives");
-            for (std::size_t i = 0; i < list_size(primitives); ++i)
-                read_primitive(entry(primitives, i), place);
+            for (const JsonField& primitive : entries(member(is, "primitives")))
+                read_primitive(primitive, place);
         }
         if (const auto camera = find(node, "camera"))
             read_camera(file_.named(*camera, "cameras"), place);
@@ -287,8 +274,7 @@ private:
             mode == 4 ? count / 3 : count - std::min(count, std::size_t(2));
         if (mode == 4 && count % 3 != 0)
             note(field, join({"has ", std::to_string(count),
-                              " corners of triangles; the "
-                              "last ",
+                              " corners of triangles; the last ",
                               std::to_string(count % 3), " are left out"}));
         triangles_ += static_cast<long long>(faces);
         if (triangles_ > max_gltf_triangles)
@@ -339,8 +325,7 @@ private:
         }
         if (const auto normals = find(attributes, "NORMAL")) {
             const std::vector<double> n = attribute(*normals, {"VEC3"}, count, size);
-            // The inverse transpose times the determinant, which exists even for a
-            // scale of 0.
+            // The inverse transpose times |determinant| exists even for a scale of 0.
             const glm::dmat3 m(place);
             const double side = glm::determinant(m) < 0 ? -1 : 1;
             const glm::dmat3 turn(side * glm::cross(m[1], m[2]),
@@ -458,8 +443,7 @@ private:
             .offset{offset.x + turn.y * scale.y, 1 - turn.x * scale.y - offset.y}};
         return whole && !find(*transform, "texCoord");
     }
-    // Reads the normal map and the holes of a material, whose base colour is already
-    // read.
+    // Reads the normal map and the holes of a material, after its base colour.
     void read_details(const JsonField& field, double alpha, MeshMaterial& material,
                       std::vector<std::string>& unused) {
         const auto texture = find(field, "normalTexture");
@@ -500,7 +484,6 @@ private:
             unused.push_back("holes and normals of what glows");
     }
     // The picture of metal (blue) and roughness (green); nullptr if it cannot be read.
-    // The pixels of all such pictures together are limited.
     const ImageT<T>* metal_picture(const JsonField& texture) {
         const std::string name = picture_of(texture);
         const auto [known, fresh] = metal_pictures_.try_emplace(name);
@@ -647,11 +630,8 @@ private:
         const JsonField all =
             member(member(member(file_.root(), "extensions"), "KHR_lights_punctual"),
                    "lights");
-        const std::size_t count = list_size(all);
-        if (count == 0) refuse(number_field, "names one of lights, but there are none");
         const JsonField field =
-            entry(all, static_cast<std::size_t>(whole_number(
-                           number_field, 0, static_cast<long long>(count) - 1)));
+            entry(all, index_in(number_field, list_size(all), "lights"));
         const JsonField type = member(field, "type");
         static constexpr std::string_view known[]{"point", "spot", "directional"};
         require_one_of(type, known);
@@ -689,8 +669,7 @@ private:
             if (count > 0)
                 mesh_.report.notes.push_back(join({to_text(count), " ", what, "."}));
         };
-        const auto animations = find(file_.root(), "animations");
-        tell(animations ? static_cast<long long>(list_size(*animations)) : 0,
+        tell(static_cast<long long>(entries(find(file_.root(), "animations")).size()),
              "animations are not used");
         tell(skins_, "nodes have skins, which are not used: their meshes stand as they "
                      "were modelled");

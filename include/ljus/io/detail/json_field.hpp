@@ -20,7 +20,6 @@
 
 namespace ljus::detail {
 
-// A value within a JSON file.
 struct JsonField {
     const nlohmann::json& value;
     const std::string& file;    // the name of the file, for messages
@@ -32,8 +31,7 @@ struct JsonField {
     // A large value is described, not printed.
     if (value.is_object()) return "an object";
     if (value.is_array() && value.size() > 4)
-        return std::string("a list of ").append(std::to_string(value.size())) +
-               " entries";
+        return join({"a list of ", std::to_string(value.size()), " entries"});
     for (const auto& part : value)
         if (part.is_structured()) return "a list";
     return shown(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -42,12 +40,11 @@ struct JsonField {
 // The path of a member, such as "a.b", or "a["b c"]" if its name is not a plain word.
 [[nodiscard]] inline std::string path_of_member(std::string path,
                                                 std::string_view name) {
-    bool plain = !name.empty() && name.size() <= 48;
-    for (const char c : name)
-        plain = plain && ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '_' || c == '-');
-    if (!plain)
-        return path.append("[\"").append(shown(std::string(name))).append("\"]");
+    const bool plain = !name.empty() && name.size() <= 48 &&
+                       std::all_of(name.begin(), name.end(), [](char c) {
+                           return is_word_letter(c) || c == '-';
+                       });
+    if (!plain) return join({path, "[\"", shown(std::string(name)), "\"]"});
     if (!path.empty()) path += '.';
     return path.append(name);
 }
@@ -77,8 +74,7 @@ path_within(const nlohmann::json& whole, const nlohmann::json& value,
 // completes the sentence, without the full stop.
 [[noreturn]] inline void refuse_path(const JsonField& field, const std::string& path,
                                      std::string_view why) {
-    throw std::runtime_error(join({shown_path(field.file), ": ",
-                                   path.empty() ? "the file" : path, " ", why, "."}));
+    refuse_file(field.file, join({path.empty() ? "the file" : path, " ", why}));
 }
 [[noreturn]] inline void refuse(const JsonField& field, std::string_view why) {
     refuse_path(field, path_of(field), why);
@@ -87,18 +83,15 @@ path_within(const nlohmann::json& whole, const nlohmann::json& value,
 // Throws an error about a value: "scene.json: objects[3].radius is -1; it must be above
 // 0."
 [[noreturn]] inline void refuse_value(const JsonField& field, std::string_view right) {
-    refuse(field, std::string("is ")
-                      .append(shown_value(field.value))
-                      .append("; it must be ")
-                      .append(right));
+    refuse(field, join({"is ", shown_value(field.value), "; it must be ", right}));
 }
 
 // Throws an error about a field. The reason is the text of another exception.
 [[noreturn]] inline void refuse_for(const JsonField& field,
                                     const std::exception& error) {
-    std::string why = std::string("cannot be used: ").append(error.what());
-    if (why.back() == '.') why.pop_back();
-    refuse(field, why);
+    std::string_view why = error.what();
+    if (why.ends_with('.')) why.remove_suffix(1);
+    refuse(field, join({"cannot be used: ", why}));
 }
 
 // The result of a call. If it throws std::invalid_argument, for instance because T
@@ -116,7 +109,7 @@ auto made_of(const JsonField& field, Call call) {
 [[nodiscard]] inline std::string in_a_row(const std::vector<std::string>& names,
                                           std::string_view last,
                                           std::size_t most = 12) {
-    const std::size_t count = names.size() <= most ? names.size() : most;
+    const std::size_t count = std::min(names.size(), most);
     std::string row;
     for (std::size_t i = 0; i < count; ++i) {
         if (i > 0 && i + 1 == names.size())
@@ -146,8 +139,7 @@ using JsonNames = std::span<const std::string_view>;
                                : join({"is not known; did you mean ", near,
                                        "? The fields here are ", list}));
 }
-// Throws an error about a value that must be one of several words, and proposes the
-// nearest word.
+// Throws an error about an unknown word, and proposes the nearest known one.
 [[noreturn]] inline void refuse_word(const JsonField& field,
                                      const std::vector<std::string>& known,
                                      const std::string& right) {
@@ -181,9 +173,17 @@ using JsonNames = std::span<const std::string_view>;
     return field.value.size();
 }
 
+// The entries of a list; none if there is no list.
+[[nodiscard]] inline std::vector<JsonField>
+entries(const std::optional<JsonField>& list) {
+    std::vector<JsonField> all;
+    for (std::size_t i = 0; list && i < list_size(*list); ++i)
+        all.push_back(entry(*list, i));
+    return all;
+}
+
 inline void require_one_of(const JsonField& field, JsonNames names) {
-    for (const std::string_view name : names)
-        if (text(field) == name) return;
+    if (is_one_of(text(field), names)) return;
     const std::vector<std::string> known(names.begin(), names.end());
     refuse_word(field, known, in_a_row(known, "or", known.size()));
 }
@@ -200,17 +200,15 @@ inline void require_one_of(const JsonField& field, JsonNames names) {
 // A whole number within [low, high], at most 2^53.
 [[nodiscard]] inline long long whole_number(const JsonField& field, long long low,
                                             long long high) {
-    std::string right = "a whole number within [";
-    right.append(std::to_string(low)).append(", ");
-    right.append(std::to_string(high)).append("]");
+    const std::string right =
+        join({"a whole number within [", to_text(low), ", ", to_text(high), "]"});
     const double value =
         number(field, static_cast<double>(low), static_cast<double>(high), right);
     if (value != std::floor(value)) refuse_value(field, right);
     return static_cast<long long>(value);
 }
 
-// The path of a file that a scene file names. Unless absolute, it is relative to the
-// folder of the scene file.
+// The path of the file that a field names.
 [[nodiscard]] inline std::string path_beside(const JsonField& field) {
     return path_beside(field.file, text(field));
 }

@@ -84,8 +84,8 @@ inline constexpr JsonTable light_tables[]{
      "a point whose intensity a maker has measured: ljus::load_ies()",
      goniometric_members}};
 
-// Reads the picture of a sky, which exactly one of three fields describes.
-// \param files  The reader of mesh files; WithExr reads EXR pictures as well.
+// Reads the picture of a sky, which exactly one of three fields describes. `files` is
+// the reader of mesh files; WithExr reads EXR pictures as well.
 template <std::floating_point T, typename Files>
 ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     if (in.has("radiance") + in.has("gradient") + in.has("file") != 1)
@@ -115,8 +115,7 @@ ImageT<T> read_sky(const JsonMembersOf& in, const Files& files) {
     refuse_value(file, "a picture with the ending .hdr, .pfm or .exr");
 }
 
-// Reads the intensities of a lamp. The intensities of all lamps of a file are limited
-// together.
+// Reads the intensities of a lamp. `others` are the lamps before it.
 template <std::floating_point T>
 IntensityTable read_intensities(const JsonMembersOf& in,
                                 const std::vector<GoniometricLightT<T>>& others) {
@@ -142,11 +141,9 @@ template <typename Scene, typename Files,
           std::floating_point T = typename Scene::Scalar>
 void read_light(const JsonField& field, const LampGroups& groups, Scene& scene,
                 const Files& files) {
-    const JsonField type = member(field, "type");
-    const std::string& name = text(type);
-    const JsonTable* const table = table_of(light_tables, name);
-    if (table == nullptr) require_one_of(type, light_words);
-    const JsonMembersOf in(field, table->members, light_shared);
+    const JsonTable& table = table_of(light_tables, field);
+    const std::string_view name = table.name;
+    const JsonMembersOf in(field, table.members, light_shared);
     const T factor = static_cast<T>(groups.factor(in));
     const auto light_of = [&](const char* what) {
         return factor * RgbT<T>{in.vector(what)};
@@ -209,10 +206,8 @@ inline constexpr JsonTable fog_tables[]{{"sphere", {}, "a ball", fog_sphere_memb
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 void read_fog(const JsonField& field, Scene& scene) {
-    const JsonField type = member(field, "type");
-    const JsonTable* const table = table_of(fog_tables, text(type));
-    if (table == nullptr) require_one_of(type, fog_words);
-    const JsonMembersOf in(field, table->members, fog_shared);
+    const JsonTable& table = table_of(fog_tables, field);
+    const JsonMembersOf in(field, table.members, fog_shared);
     const auto vector = [&](const char* name) { return Vec3T<T>{in.vector(name)}; };
     const auto add = [&](const auto& region) {
         made_of(field, [&] {
@@ -223,7 +218,7 @@ void read_fog(const JsonField& field, Scene& scene) {
                 .g = static_cast<T>(in.number("g"))});
         });
     };
-    if (table->name == "sphere")
+    if (table.name == "sphere")
         add(SphereT<T>{vector("center"), static_cast<T>(in.number("radius"))});
     else
         add(BoxT<T>{vector("low"), vector("high")});

@@ -29,8 +29,7 @@
 namespace ljus::detail {
 
 /// The largest number of energy loss tables for the materials full-glossy and
-/// full-rough-metal of a scene file. To compute a table takes some hundredths of a
-/// second.
+/// full-rough-metal of a scene file. Each takes some hundredths of a second to compute.
 inline constexpr std::size_t max_loss_tables = 64;
 
 // Data that the materials of a file share.
@@ -123,10 +122,11 @@ MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
     using Picture = PictureTextureT<T, UvMapT<T>>;
     const UvMapT<T> map = read_uv_map<T>(in);
     const auto on_map = [&](const JsonField& file, PictureContent content) {
-        return picture_on<T>(map, in, file, [&](const std::string& path) {
+        const auto take = [&](const std::string& path) {
             return content == PictureContent::colors ? pictures.take(path)
                                                      : pictures.take(path, content);
-        });
+        };
+        return picture_on(map, in, picture_of(file, take));
     };
     const auto even = [&](const RgbT<T>& color) {
         return Picture{.image = make_image(1, 1, color)};
@@ -202,9 +202,8 @@ Textured<LambertianT<T>, Texture> white(Texture texture) {
     return {{.albedo = RgbT<T>{T(1)}}, std::move(texture)};
 }
 
-// The table of materials. The material types of a scene, the readers, the names in
-// messages, the page of the book and the JSON schema are all made from this table. A
-// new material therefore needs only a new row.
+// The table of materials. The material types of a scene, the names in messages, the
+// page of the book and the JSON schema are made from it.
 template <std::floating_point T>
 constexpr auto material_rows() {
     using In = const MaterialFields<T>&;

@@ -100,7 +100,6 @@ inline constexpr JsonValue factor_value{JsonKind::number, 1e-9, 1e9,
 inline constexpr JsonValue angle_value{JsonKind::number, -360, 360,
                                        "within [-360, 360] degrees"};
 
-// Requires that a number is of this kind.
 inline void check_number(const JsonField& field, const JsonValue& value) {
     if (value.kind == JsonKind::whole)
         (void)whole_number(field, static_cast<long long>(value.low),
@@ -125,9 +124,7 @@ inline void check_numbers(const JsonField& field, const JsonValue& value,
         refuse_value(field, "a vector that is not 0");
 }
 
-// Requires that a value is of this kind.
 inline void check_value(const JsonField& field, const JsonValue& value) {
-    constexpr std::string_view three = "a list of three numbers";
     switch (value.kind) {
     case JsonKind::text:
         (void)text(field);
@@ -148,7 +145,7 @@ inline void check_value(const JsonField& field, const JsonValue& value) {
         break;
     case JsonKind::vector:
     case JsonKind::direction:
-        check_numbers(field, value, 3, three);
+        check_numbers(field, value, 3, "a list of three numbers");
         break;
     case JsonKind::scale:
         if (field.value.is_number())
@@ -168,9 +165,7 @@ inline void check_value(const JsonField& field, const JsonValue& value) {
 // An object whose members are those of its tables.
 class JsonMembersOf {
 public:
-    // Checks all members.
-    // \param own     The table of this kind of object.
-    // \param shared  A table that several kinds have in common.
+    // Checks all members. The table `shared` is common to several kinds of objects.
     JsonMembersOf(const JsonField& field, JsonMembers own, JsonMembers shared = {})
         : field_(field), tables_{shared, own} {
         if (!field.value.is_object()) refuse_value(field, "an object");
@@ -202,8 +197,7 @@ public:
         const auto found = find(row);
         return found ? found->value.get<double>() : row.preset;
     }
-    // The three numbers of a member. A single number, or the default, is used three
-    // times.
+    // The three numbers of a member; a single number or default is used three times.
     [[nodiscard]] glm::dvec3 vector(std::string_view name) const {
         const JsonMember& row = *row_of(name);
         const auto found = find(row);
@@ -256,21 +250,37 @@ struct JsonTable {
     JsonNames one_of{}; // members of which an object has exactly one
 };
 
-// The table with this name; null if there is none.
-[[nodiscard]] inline const JsonTable* table_of(std::span<const JsonTable> tables,
-                                               std::string_view name) {
-    for (const JsonTable& table : tables)
-        if (table.name == name || (!table.also.empty() && table.also == name))
-            return &table;
-    return nullptr;
+// The table that the `type` of an object names.
+[[nodiscard]] inline const JsonTable& table_of(std::span<const JsonTable> tables,
+                                               const JsonField& object) {
+    const JsonField type = member(object, "type");
+    std::vector<std::string> names;
+    for (const JsonTable& table : tables) {
+        if (text(type) == table.name) return table;
+        names.emplace_back(table.name);
+    }
+    refuse_word(type, names, in_a_row(names, "or", names.size()));
+}
+
+// The entry of a map that a field names. Messages call the map `what`.
+template <typename Entry>
+const Entry& entry_named(const JsonField& field,
+                         const std::map<std::string, Entry>& map,
+                         std::string_view what) {
+    const auto known = map.find(text(field));
+    if (known != map.end()) return known->second;
+    std::vector<std::string> names;
+    for (const auto& [name, value] : map) names.push_back(name);
+    refuse_word(field, names, join({"one of the ", what, " ", in_a_row(names, "or")}));
 }
 
 // The groups of lamps by name, each with the factor by which its light is multiplied.
 struct LampGroups {
     std::map<std::string, double> factors{};
 
-    LampGroups() = default;
-    explicit LampGroups(const JsonField& groups) {
+    explicit LampGroups(const JsonMembersOf& scene) {
+        if (!scene.has("lamp_groups")) return;
+        const JsonField groups = scene["lamp_groups"];
         for (const auto& [name, value] : groups.value.items())
             factors[name] =
                 number({value, groups.file, groups.root}, 0, 1e9, "within [0, 1e9]");
@@ -279,13 +289,9 @@ struct LampGroups {
     [[nodiscard]] double factor(const JsonMembersOf& in) const {
         if (!in.has("lamp_group")) return 1;
         const JsonField group = in["lamp_group"];
-        const auto known = factors.find(text(group));
-        if (known != factors.end()) return known->second;
-        std::vector<std::string> names;
-        for (const auto& [name, value] : factors) names.push_back(name);
-        refuse_word(group, names,
-                    names.empty() ? "a name of lamp_groups, which the file lacks"
-                                  : "one of the lamp_groups " + in_a_row(names, "or"));
+        if (factors.empty())
+            refuse_value(group, "a name of lamp_groups, which the file lacks");
+        return entry_named(group, factors, "lamp_groups");
     }
 };
 inline constexpr JsonMember lamp_group_row =

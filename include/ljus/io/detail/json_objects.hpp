@@ -41,10 +41,8 @@ template <std::floating_point T>
 struct NoMeshesT {
     [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
                                                   const std::string&) const {
-        throw std::runtime_error(
-            shown_path(file) +
-            ": load_json() reads no meshes unless it is given MeshFiles, from "
-            "ljus/io/load_mesh.hpp.");
+        refuse_file(file, "load_json() reads no meshes unless it is given MeshFiles, "
+                          "from ljus/io/load_mesh.hpp");
     }
 };
 
@@ -144,7 +142,6 @@ inline constexpr JsonTable object_tables[]{
     {"disc", {}, "a disc", disc_members},
     {"cylinder", {}, "a tube", cylinder_members}};
 
-// Reads the three indices of a triangle.
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
     if (list_size(field) != 3) refuse_value(field, "a list of three numbers");
@@ -168,8 +165,6 @@ inline glm::dvec3 point_of(const JsonField& field) {
             field.value[2].get<double>()};
 }
 
-// Reads the triangles of an object. Two triangles that form a parallelogram become a
-// quad.
 template <std::floating_point T>
 FlatShapesT<T> read_triangles(const JsonField& field) {
     const JsonField vertices = member(field, "vertices");
@@ -185,13 +180,12 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 }
 
 /// Limits for mesh files that a scene names several times. A file is read again only
-/// for another scale, other normals or other materials, at most 16 times in all. If a
-/// scene names a file again with the same values, the meshes are copied; all copies
-/// together have at most 2^22 triangles.
+/// for another scale, other normals or other materials. Otherwise its meshes are
+/// copied, with at most 2^22 triangles in all copies together.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
-/// The largest number of triangles of all instances together. The number is limited
-/// because the area of a stretched instance is computed as a sum over its triangles.
+/// The largest number of triangles of all instances together. The area of a stretched
+/// instance is computed as a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
 // How an object names a mesh file, and whether it is made of the file's materials.
@@ -214,16 +208,14 @@ inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
             own_materials};
 }
 
-// The material and emission of an object.
 template <std::floating_point T>
 struct FileSurfaceT {
     MaterialId material{};
     RgbT<T> emission{T(0)};
 };
 
-// The mesh files that a scene has read so far. A file that is named again is not read
-// again: its meshes are copied from the scene or, if a transform has changed those,
-// from `unplaced`. Meshes of instances are kept once.
+// The mesh files that a scene has read so far. Meshes are copied from the scene or, if
+// a transform has changed those, from `unplaced`. Meshes of instances are kept once.
 template <std::floating_point T>
 struct FileMeshesT {
     struct Reading {
@@ -243,7 +235,6 @@ struct FileMeshesT {
     std::size_t pixels = 0;                          // of pictures that mesh files name
 };
 
-// Requires that a file may be read once more.
 inline void require_readings(const JsonField& file, std::size_t readings) {
     if (readings == max_mesh_readings)
         refuse(file, "is named with more than 16 scales and normals");
@@ -297,8 +288,7 @@ FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
 }
 
 // Adds the meshes of a file by calls of add(mesh, surface). The surface is null unless
-// the file's own materials are used.
-// \param is_placed  Whether `add` applies a transform to the meshes.
+// the file's own materials are used. If `is_placed`, add() applies a transform.
 template <std::floating_point T, typename LoadMeshes, typename Add>
 void read_meshes(const MeshName& named, FileSceneT<T>& scene, FileMeshesT<T>& known,
                  LoadMeshes& load_meshes, bool is_placed, Add add) {
@@ -390,17 +380,6 @@ void read_instances(const JsonMembersOf& in, const MeshName& named,
     }
 }
 
-inline MaterialId material_of(const JsonField& field,
-                              const std::map<std::string, MaterialId>& materials) {
-    const JsonField material = member(field, "material");
-    const auto known = materials.find(text(material));
-    if (known != materials.end()) return known->second;
-    std::vector<std::string> names;
-    for (const auto& [name, id] : materials) names.push_back(name);
-    refuse_word(material, names,
-                std::string("one of the materials ") + in_a_row(names, "or"));
-}
-
 template <std::floating_point T>
 PlacementT<T> read_transform(const JsonField& field) {
     const JsonMembersOf in(field, transform_members);
@@ -461,15 +440,14 @@ void read_object(const JsonField& field,
                  const std::map<std::string, MaterialId>& materials,
                  const LampGroups& groups, FileSceneT<T>& scene, FileMeshesT<T>& meshes,
                  LoadMeshes& load_meshes) {
-    const JsonField type = member(field, "type");
-    const JsonTable* const table = table_of(object_tables, text(type));
-    if (table == nullptr) require_one_of(type, object_words);
-    const JsonMembersOf in(field, table->members, object_shared);
-    const bool of_file = table->name == "mesh" || table->name == "instances";
+    const JsonTable& table = table_of(object_tables, field);
+    const JsonMembersOf in(field, table.members, object_shared);
+    const bool of_file = table.name == "mesh" || table.name == "instances";
     const bool own =
         of_file && (!in.has("material") ||
                     (text(in["material"]) == "file" && !materials.contains("file")));
-    const MaterialId material = own ? MaterialId{} : material_of(field, materials);
+    const MaterialId material =
+        own ? MaterialId{} : entry_named(in["material"], materials, "materials");
     const double factor = groups.factor(in);
     const RgbT<T> radiance{factor * in.vector("emission")};
     std::optional<PlacementT<T>> placement;
@@ -497,14 +475,14 @@ void read_object(const JsonField& field,
                        "file other shapes do not move");
         });
     };
-    if (table->name == "mesh")
+    if (table.name == "mesh")
         read_meshes(mesh_name(in, own), scene, meshes, load_meshes,
                     placement.has_value(), add);
-    else if (table->name == "instances")
+    else if (table.name == "instances")
         read_instances(in, mesh_name(in, own), scene, meshes, load_meshes,
                        add_to_scene);
     else
-        read_shapes<T>(in, table->name, add);
+        read_shapes<T>(in, table.name, add);
 }
 
 } // namespace ljus::detail

@@ -69,11 +69,8 @@ inline void require_fields_of_map(const JsonMembersOf& in, const std::string& ki
                                       {"offset", "uv"}};
     for (const auto& [name, owner] : owners)
         if (in.has(name) && kind != owner)
-            refuse(in[name], std::string("belongs to the map \"")
-                                 .append(owner)
-                                 .append("\", and the map here is \"")
-                                 .append(kind)
-                                 .append("\""));
+            refuse(in[name], join({"belongs to the map \"", owner,
+                                   "\", and the map here is \"", kind, "\""}));
 }
 
 template <std::floating_point T>
@@ -185,12 +182,12 @@ ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
                       [&](const std::string& path) { return pictures.take(path); });
 }
 
-// Reads the picture that a field names, by take(path), and puts it on a map.
-template <std::floating_point T, typename Map, typename Take>
+// Puts a picture on a map.
+template <std::floating_point T, typename Map>
 PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
-                                   const JsonField& file, Take take) {
+                                   ImageT<T> image) {
     const std::string wrap = in.word("wrap");
-    return {.image = picture_of(file, take),
+    return {.image = std::move(image),
             .map = map,
             .wrap = wrap == "clamp"    ? PictureWrap::clamp
                     : wrap == "mirror" ? PictureWrap::mirror
@@ -202,8 +199,8 @@ PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
 template <std::floating_point T>
 PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
                                              FilePicturesT<T>& pictures) {
-    return picture_on<T>(read_map<T>(in), in, in["file"],
-                         [&](const std::string& path) { return pictures.take(path); });
+    const FileMapT<T> map = read_map<T>(in);
+    return picture_on(map, in, take_picture(in, pictures));
 }
 
 } // namespace ljus::detail

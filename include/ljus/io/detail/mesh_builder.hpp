@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/mesh_builder.hpp
-/// \brief Makes meshes from the faces of a mesh file. Any part of the file may be
-/// wrong.
+/// \brief Makes meshes from the faces of a mesh file, any of which may be wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -136,8 +135,7 @@ public:
         if (!is_finite(position(positions_.size() - 1)))
             report.add(MeshTrouble::bad_number, place);
     }
-    // Adds the linear colour of the last position. It is ignored if a channel is
-    // outside [0, 1].
+    // Adds the linear colour of the last position, unless a channel is outside [0, 1].
     void add_color(const glm::dvec3& color) {
         colors_.resize(positions_.size(), no_color);
         if (colored_.count++ == 0) colored_.line = place;
@@ -169,7 +167,7 @@ public:
                 missing_[k] = true;
         if (face_.size() <= 1000) face_.push_back(has);
     }
-    // Says that an element that the file names for a corner of the face does not exist.
+    // Notes that a corner of the face names an element that does not exist.
     void miss(std::size_t k) { missing_[k] = true; }
 
     // Ends a face: adds the triangles between its corners.
@@ -334,8 +332,7 @@ private:
         lines_.push_back(static_cast<std::uint32_t>(place));
         return true;
     }
-    // The vertex of a corner. Equal corners share a vertex if it is one of the last 64
-    // at their position.
+    // Equal corners share a vertex if it is one of the last 64 at their position.
     std::uint32_t vertex_of(const MeshCorner& corner) {
         std::uint32_t& latest = latest_[corner[of_position]];
         std::uint32_t vertex = latest;

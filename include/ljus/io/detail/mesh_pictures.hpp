@@ -12,8 +12,7 @@ namespace ljus::detail {
 
 // Loads a picture of a material, unless it is already loaded. bytes_of(name) returns
 // the bytes of its file. The picture is kept under its name with `kind` appended,
-// because one file may hold both colours and alpha. The pixels of all files together
-// are limited.
+// because one file may hold both colours and alpha.
 template <std::floating_point T, typename BytesOf>
 void load_picture(MeshImage& picture, PictureContent content, std::string_view kind,
                   LoadedMeshT<T>& loaded, long long& pixels, const BytesOf& bytes_of) {

@@ -21,6 +21,7 @@
 #include <glm/vec3.hpp>
 
 #include "ljus/io/file.hpp"
+#include "ljus/io/nearest_word.hpp"
 
 namespace ljus::detail {
 
@@ -34,8 +35,7 @@ inline std::uint64_t unsigned_value(std::string_view bytes, bool high_first = fa
     return bits;
 }
 
-// The number in some bytes. Its kind is 'i' (signed), 'u' (unsigned) or 'f' (floating
-// point).
+// The signed ('i'), unsigned ('u') or floating-point ('f') number in some bytes.
 inline double binary_number(std::string_view bytes, char kind,
                             bool high_first = false) {
     const std::uint64_t bits = unsigned_value(bytes, high_first);
@@ -67,8 +67,8 @@ struct LineReader {
     std::string joined{};
 
     // Calls use(line, number) for each line of a piece. A line that reaches the end of
-    // a piece may be incomplete. Unless the piece is the last one, it is therefore left
-    // for the next piece. Returns the number of bytes that were used.
+    // a piece may be incomplete, and is left for the next piece, if there is one.
+    // Returns the number of bytes that were used.
     template <typename Use>
     std::size_t read(std::string_view piece, bool last, Use use) {
         std::string_view rest = number == 1 ? plain_text(piece, file) : piece;
@@ -121,14 +121,9 @@ struct Words {
     }
 };
 
-// Whether two words are equal but for capital letters: programs write map_Kd and
-// map_kd.
+// Whether two words are equal but for capital letters, as map_Kd and map_kd are.
 inline bool same_word(std::string_view a, std::string_view b) {
-    const auto small = [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char c, char d) { return small(c) == small(d); });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_letter);
 }
 
 // Counts the lines that begin with keywords that the reader does not use. A keyword
@@ -136,11 +131,7 @@ inline bool same_word(std::string_view a, std::string_view b) {
 class UnusedLines {
 public:
     void add(std::string_view keyword, long long line) {
-        const auto in_word = [](char c) {
-            return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-                   (c >= 'a' && c <= 'z');
-        };
-        if (!std::all_of(keyword.begin(), keyword.end(), in_word)) return;
+        if (!std::all_of(keyword.begin(), keyword.end(), is_word_letter)) return;
         if (words_.size() < most || words_.contains(keyword))
             ++words_.try_emplace(std::string(keyword), Found{0, line})
                   .first->second.count;
@@ -161,17 +152,7 @@ private:
     std::map<std::string, Found, std::less<>> words_{};
 };
 
-// Whether a word is one of a list.
-inline bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-inline bool is_one_of(std::string_view word,
-                      std::initializer_list<std::string_view> list) {
-    return is_one_of(word, std::span(list.begin(), list.size()));
-}
-
-// The number that a word spells; 0 if it is too small for double, and NaN if the word
-// is no number.
+// The number that a word spells; 0 if it is too small for double, NaN for no number.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;

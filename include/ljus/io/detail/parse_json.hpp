@@ -13,9 +13,8 @@ namespace ljus::detail {
 // The deepest nesting of lists and objects.
 inline constexpr std::size_t max_json_depth = 32;
 
-// The limit for one file: this many numbers, or a quarter as many lists and objects,
-// which take more memory. Without a limit a file of some megabytes could exhaust
-// memory.
+// The limit for one file: this many numbers, or a quarter as many lists, objects and
+// members, which take more memory.
 inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
 
 // Receives the events of nlohmann's parser and builds the value.
@@ -49,9 +48,7 @@ struct JsonBuilder {
         auto& members = open.back()->get_ref<nlohmann::json::object_t&>();
         const auto [at, fresh] = members.try_emplace(std::move(name));
         member = &at->second;
-        if (!fresh)
-            throw std::runtime_error(shown_path(file) + ": " + path() +
-                                     " appears twice.");
+        if (!fresh) refuse_file(file, path() + " appears twice");
         return true;
     }
 
@@ -64,12 +61,9 @@ struct JsonBuilder {
             column = c == '\n' ? 0 : column + 1;
             line += c == '\n' ? 1 : 0;
         }
-        std::string message = shown_path(file) + ": line " + std::to_string(line) +
-                              ", column " + std::to_string(column == 0 ? 1 : column) +
-                              ": ";
         std::string why = error.what();
-        std::string right;     // what would be right
-        if (error.id == 406) { // a number beyond the range of double
+        std::string_view right; // what would be right
+        if (error.id == 406) {  // a number beyond the range of double
             why = path() + " is " + token;
             right = "; it must be finite";
         } else { // "... while parsing value - unexpected end of input"
@@ -81,8 +75,9 @@ struct JsonBuilder {
         }
         for (char& c : why)
             if (static_cast<unsigned char>(c) >= 0x80) c = '?';
-        throw std::runtime_error(
-            message.append(shown(why, 160)).append(right).append("."));
+        refuse_file(file, join({"line ", std::to_string(line), ", column ",
+                                std::to_string(column == 0 ? 1 : column), ": ",
+                                shown(why, 160), right}));
     }
 
 private:
@@ -90,26 +85,25 @@ private:
     std::string path() const {
         if (open.empty()) return "the file";
         const nlohmann::json& last = *open.back();
-        return last.is_object() ? path_within(root, *member).value_or("")
-                                : path_within(root, last)
-                                      .value_or("")
-                                      .append("[")
-                                      .append(std::to_string(last.size()) + "]");
+        if (last.is_object()) return path_within(root, *member).value_or("");
+        return join({path_within(root, last).value_or(""), "[",
+                     std::to_string(last.size()), "]"});
     }
 
     void take(std::size_t cost) {
         if (room < cost)
-            throw std::runtime_error(
-                join({shown_path(file), ": it has more than ",
-                      to_text(static_cast<long long>(max_json_values)),
+            refuse_file(
+                file,
+                join({"it has more than ", std::to_string(max_json_values),
                       " numbers, or a quarter as many lists, objects and members; put "
-                      "large meshes into files of their own."}));
+                      "large meshes into files of their own"}));
         room -= cost;
     }
 
     bool put(nlohmann::json value) {
         take(1);
-        return (void(place(std::move(value))), true);
+        place(std::move(value));
+        return true;
     }
 
     nlohmann::json* place(nlohmann::json&& value) {
@@ -124,10 +118,9 @@ private:
     bool begin(nlohmann::json value) {
         take(4);
         if (open.size() == max_json_depth)
-            throw std::runtime_error(shown_path(file) + ": " + shown(path(), 96) +
-                                     " is nested too deeply; at most " +
-                                     std::to_string(max_json_depth) +
-                                     " levels are allowed.");
+            refuse_file(file,
+                        join({shown(path(), 96), " is nested too deeply; at most ",
+                              std::to_string(max_json_depth), " levels are allowed"}));
         open.push_back(place(std::move(value)));
         return true;
     }
@@ -139,13 +132,12 @@ private:
 };
 
 // Parses JSON. The name of the file is for messages, such as "scene.json: line 3,
-// column 7: unexpected end of input; expected '}'." For a duplicate member, or a value
-// that is nested too deeply, the message gives its path.
+// column 7: unexpected end of input; expected '}'."
 [[nodiscard]] inline nlohmann::json parse_json(std::string_view source,
                                                const std::string& file) {
     source = plain_text(source, file);
     if (source.find_first_not_of(" \t\r\n") == std::string_view::npos)
-        throw std::runtime_error(shown_path(file) + ": the file is empty.");
+        refuse_file(file, "the file is empty");
     JsonBuilder builder{.source = source, .file = file};
     nlohmann::json::sax_parse(source.begin(), source.end(), &builder);
     return std::move(builder.root);

@@ -134,12 +134,12 @@ inline std::string other_profile(const Bytes& bytes) {
 template <typename Inflate>
 std::string png_other_colors(const Bytes& file, Inflate inflate) {
     std::size_t by_number = 0, profile = 0, profile_size = 0, srgb = 0, primaries = 0;
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
-        if (name == 0x63494350u) by_number = at;                    // cICP
-        if (name == 0x69434350u) profile = at, profile_size = size; // iCCP
-        if (name == 0x73524742u) srgb = at;                         // sRGB
-        if (name == 0x6348524du && size == 32) primaries = at;      // cHRM
-        return name == 0x49444154u;                                 // IDAT
+    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
+        if (name == "cICP") by_number = at;
+        if (name == "iCCP") profile = at, profile_size = size;
+        if (name == "sRGB") srgb = at;
+        if (name == "cHRM" && size == 32) primaries = at;
+        return name == "IDAT";
     });
     if (by_number != 0) {
         // The bytes are the numbers of primaries and curve, a matrix, and full range.

@@ -52,6 +52,12 @@ inline std::uint32_t png_sum(const Bytes& file, std::size_t first, std::size_t l
     return ~sum;
 }
 
+// Whether a text stands at an index of a file.
+inline bool stands_at(const Bytes& file, std::size_t at, std::string_view text) {
+    return at + text.size() <= file.size() &&
+           std::equal(text.begin(), text.end(), file.data() + at);
+}
+
 // Calls use(name, at, size) for each chunk of a PNG file, where `at` is the index of
 // the chunk's data. Ends if use() returns true, after the chunk IEND, or at a chunk
 // that is cut off.
@@ -59,9 +65,9 @@ template <typename Use>
 void find_png_chunk(const Bytes& file, Use use) {
     for (std::size_t at = 8; at <= file.size() && file.size() - at >= 12;) {
         const std::size_t size = png_number(file, at);
-        const std::uint32_t name = png_number(file, at + 4);
+        const std::string_view name(reinterpret_cast<const char*>(&file[at + 4]), 4);
         if (size > file.size() - at - 12 || use(name, at + 8, size)) return;
-        if (name == 0x49454e44u) return; // IEND
+        if (name == "IEND") return;
         at += 12 + size;
     }
 }
@@ -70,13 +76,13 @@ void find_png_chunk(const Bytes& file, Use use) {
 // complete up to IEND nor whether their checksums are right.
 inline const char* png_trouble(const Bytes& file) {
     const char* trouble = "it ends before its last chunk, or in the middle of one";
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
+    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
         const bool right =
             png_number(file, at + size) == png_sum(file, at - 4, at + size);
         if (!right)
             trouble = "the checksum of a chunk is wrong";
-        else if (name == 0x49454e44u)
-            trouble = nullptr; // IEND
+        else if (name == "IEND")
+            trouble = nullptr;
         return !right;
     });
     return trouble;
@@ -86,15 +92,13 @@ inline const char* png_trouble(const Bytes& file) {
 // chunk sRGB, iCCP or cICP overrides it.
 inline double png_gamma(const Bytes& file) {
     double gamma = 0;
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
-        // sRGB, iCCP, cICP
-        const bool named =
-            name == 0x73524742u || name == 0x69434350u || name == 0x63494350u;
+    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
+        const bool named = name == "sRGB" || name == "iCCP" || name == "cICP";
         if (named)
             gamma = 0;
-        else if (name == 0x67414d41u && size == 4) // gAMA
+        else if (name == "gAMA" && size == 4)
             gamma = png_number(file, at) / 1e5;
-        return named || name == 0x49444154u; // IDAT
+        return named || name == "IDAT";
     });
     // 1/2.2 means sRGB in files without an sRGB chunk.
     return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
@@ -106,8 +110,8 @@ inline double png_gamma(const Bytes& file) {
 inline Bytes with_whole_palette(const Bytes& file) {
     constexpr std::size_t full = 3 * 256;
     Bytes whole;
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t size) {
-        if (name != 0x504c5445u || size >= full || size % 3 != 0) return false; // PLTE
+    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
+        if (name != "PLTE" || size >= full || size % 3 != 0) return false;
         whole = file;
         whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(at + size),
                      full - size, 0);
@@ -139,8 +143,7 @@ public:
         const std::size_t rules = find(list(exif), 0xa005);
         const std::size_t rule = rules != 0 ? find(list(rules), 1) : 0;
         return (space != 0 && number(space, 2) == 2) ||
-               (rule != 0 && byte_at(file_, rule) == 'R' &&
-                byte_at(file_, rule + 1) == '0' && byte_at(file_, rule + 2) == '3');
+               (rule != 0 && stands_at(file_, rule, "R03"));
     }
 
 private:
@@ -166,10 +169,10 @@ private:
 // without one.
 inline int png_orientation(const Bytes& file) {
     int orientation = 1;
-    find_png_chunk(file, [&](std::uint32_t name, std::size_t at, std::size_t) {
-        const bool found = name == 0x65584966u; // eXIf
+    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t) {
+        const bool found = name == "eXIf";
         if (found) orientation = Tiff(file, at).orientation();
-        return found || name == 0x49444154u; // IDAT
+        return found || name == "IDAT";
     });
     return orientation;
 }
@@ -221,13 +224,6 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
-// Whether a JPEG file has more scans than it can need. Each scan processes the whole
-// picture and can be as short as ten bytes. A baseline file has at most one scan per
-// channel. A progressive file, whose scans refine each other, usually has about ten.
-inline bool too_many_scans(int scans, bool in_parts) {
-    return scans > (in_parts ? 64 : 4);
-}
-
 // Calls use(kind, at) for each segment of a JPEG file before its pixels, where `at` is
 // the index after the segment's length. Ends if use() returns true.
 template <typename Use>
@@ -242,12 +238,6 @@ void find_jpeg_segment(const Bytes& file, Use use) {
         if (kind == scan || use(kind, at + 4)) return;
         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
     }
-}
-
-// Whether a text stands at an index of a file.
-inline bool stands_at(const Bytes& file, std::size_t at, std::string_view text) {
-    return at + text.size() <= file.size() &&
-           std::equal(text.begin(), text.end(), file.data() + at);
 }
 
 // The orientation in the EXIF segment of a JPEG file; 1 without one.
@@ -284,7 +274,9 @@ inline const char* jpeg_kind_unread(const Bytes& file) {
 }
 
 // The damage of a JPEG file, or null. stb_image does not test whether Huffman tables
-// are valid, and whether all tables that a scan uses exist.
+// are valid, and whether all tables that a scan uses exist. Scans are limited: each
+// takes time for the whole picture, and can be as short as ten bytes. A baseline file
+// has at most one per channel, and a progressive file usually about ten.
 inline const char* jpeg_trouble(const Bytes& file) {
     constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
@@ -302,7 +294,7 @@ inline const char* jpeg_trouble(const Bytes& file) {
             return "a table has more than 255 entries";
         if (kind == scan && !finds_tables(file, at + 2, in_parts, there))
             return "a scan uses a table that is not there";
-        if (kind == scan && too_many_scans(++scans, in_parts))
+        if (kind == scan && ++scans > (in_parts ? 64 : 4))
             return in_parts ? "it has more than 64 scans"
                             : "it has more than 4 scans, and is not progressive";
         at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];

@@ -13,8 +13,7 @@ namespace ljus::detail {
 /// single 16-bit PNG picture may have half as many.
 inline constexpr int max_image_pixels = 1 << 25;
 
-// Why a picture is too large, if other pictures already have `others` pixels; empty if
-// it is not too large.
+// Why a picture is too large beside others of `others` pixels; empty if it is not.
 inline std::string too_large_beside(long long others, long long wide, long long high) {
     if (wide * high <= max_image_pixels - others) return "";
     return join({"has ", to_text(wide), " x ", to_text(high),

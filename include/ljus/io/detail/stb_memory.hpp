@@ -26,10 +26,9 @@ struct alignas(std::max_align_t) StbBlock {
     }
 };
 
-// stb_image_write tests only some of its allocations, and stb_image does not always
-// report one that failed. Here a failed allocation throws std::bad_alloc. stb cannot
-// free its memory then. A StbMemory therefore frees, at the end of its scope, all
-// blocks that the thread has allocated meanwhile.
+// stb does not report every failed allocation. Here a failed allocation throws
+// std::bad_alloc, and stb cannot free its memory. A StbMemory therefore frees, at the
+// end of its scope, all blocks that the thread has allocated meanwhile.
 class StbMemory {
 public:
     StbMemory() noexcept : outer_(list()) { list() = &blocks_; }
