@@ -268,6 +268,8 @@ TEST_CASE("hdr: the colour correction of the header is taken out, other primarie
     };
     CHECK(message("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333") == "loaded");
     CHECK(message("PRIMARIES= .640 .330 .290 .600") != "loaded");
+    CHECK(message("PRIMARIES=0 0 0 0 0 0 0 0") == "loaded"); // stands for unknown
+    CHECK(message("PRIMARIES=0 0 0 0") != "loaded");
     CHECK(message("FORMAT= 32-bit_rle_rgbe\t ") == "loaded");
     CHECK(message("GAMMA=1.0") == "loaded");
     CHECK(message("GAMMA=2.2") == "its header says GAMMA=2.2; only radiance is "

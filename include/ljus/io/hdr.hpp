@@ -160,9 +160,12 @@ template <std::floating_point T = float>
             line.substr(std::min(line.find_first_not_of(" \t", 7), line.size())) !=
                 "32-bit_rle_rgbe")
             reader.fail(says + "; only 32-bit_rle_rgbe is supported");
-        if (line.starts_with("PRIMARIES=") &&
-            !detail::are_srgb_primaries(detail::header_numbers(line, 10)))
-            reader.fail(says + "; only the primaries of sRGB are supported");
+        if (line.starts_with("PRIMARIES=")) {
+            const auto numbers = detail::header_numbers(line, 10);
+            const std::vector<double> unknown(8); // so written by image editors
+            if (numbers != unknown && !detail::are_srgb_primaries(numbers))
+                reader.fail(says + "; only the primaries of sRGB are supported");
+        }
         if (line.starts_with("GAMMA=") &&
             detail::header_numbers(line, 6) != std::vector<double>{1.0})
             reader.fail(says + "; only radiance is supported, with a gamma of 1");
