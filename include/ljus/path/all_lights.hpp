@@ -33,16 +33,14 @@ enum class DirectLight : std::uint8_t {
 
 namespace detail {
 
-/// A lamp whose form factor at a vertex is known.
+/// A lamp as seen from a vertex, on the side of `wo`.
 template <std::floating_point T>
 struct SeenLampT {
-    /// The form factor of the lamp, as seen from the vertex on the side of `wo`.
     T form_factor = T(0);
     RgbT<T> radiance{T(0)}; ///< The lamp's radiance in W/(m^2 sr).
 };
 
-/// The form factor and the radiance of a light at a vertex.
-/// \return Nothing if the light has no form_factor().
+/// Nothing if the form factor of the light is not known.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
                                                     const VertexT<T>& vertex) {
@@ -57,8 +55,8 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// The radiance that a Lambertian surface reflects from a lamp if nothing occludes the
-/// lamp, in W/(m^2 sr).
+/// The radiance that a Lambertian surface reflects from an unoccluded lamp, in
+/// W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
                                  const LambertianT<T>& material) noexcept {
@@ -75,11 +73,8 @@ template <std::floating_point T>
 /// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
 /// of two random sums has a bias; it is of the order of the variance of f_i over the
 /// number of rays.
-/// \param lamp    From seen_lamp().
-/// \param rays    Number of shadow rays, at least 1.
-/// \param place   place(i, cells) returns a point of the unit square, in the i-th
-///                cell.
-/// \param counts  Counts the rays.
+/// \param rays   Number of shadow rays, at least 1.
+/// \param place  place(i, cells) returns a point of the unit square, in the i-th cell.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
@@ -132,10 +127,9 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Traces an extra ray, sampled by the material, and returns the result of met_light()
-/// for this ray. The ray carries no other light.
+/// for this ray: radiance towards `wo`, in W/(m^2 sr). The ray carries no other light.
 /// \param rays     Number of shadow rays per light.
 /// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
-/// \return Radiance towards `wo`, in W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -205,19 +199,16 @@ public:
             scale_ = std::ceil(T(2 * rays) * (faint / sent_by_all_)) / faint;
     }
 
-    /// The result of seen_lamp() for a light. Nothing if the light has no closed form
-    /// or is known to be occluded.
+    /// The result of seen_lamp(); nothing for a light that is known to be occluded.
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
-    /// Whether a lamp is faint.
-    /// \param by_it  The result of sent_by() for the lamp.
+    /// Whether a lamp is faint, by the result of its sent_by().
     [[nodiscard]] bool is_faint(T by_it) const noexcept {
         return mean_rays(by_it) < T(1);
     }
-    /// The number of rays to the next lamp. The calls must follow the order of the
-    /// lights.
-    /// \param by_it  The result of sent_by() for the lamp.
+    /// The number of rays to the next lamp, by the result of its sent_by(). The calls
+    /// must follow the order of the lights.
     [[nodiscard]] int rays_to(T by_it) noexcept {
         if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
@@ -259,17 +250,13 @@ private:
 
 /// Verdicts for a vertex at which the visibility of every light is unknown.
 struct NoVerdicts {
-    /// Verdict::unknown for every light.
     constexpr Verdict operator()(std::size_t) const noexcept {
         return Verdict::unknown;
     }
 };
 
-/// The point of the unit square for the i-th ray to a light.
-/// \param i        The number of the ray.
-/// \param cells    The cells of the unit square, one for each ray.
-/// \param u        Position within a cell; the same for all rays of a vertex.
-/// \param context  Its stream gives a key for random numbers.
+/// The point of the unit square for the i-th ray to a light, in a cell of its own at
+/// the position `u`, which is the same for all rays of a vertex.
 template <std::floating_point T, typename Context>
 [[nodiscard]] Vec2T<T> place_of_ray(int i, const Strata& cells, const Vec2T<T>& u,
                                     const Context& context) noexcept {
@@ -277,12 +264,8 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the radiance from one light: the mean of several shadow rays.
-/// \param sum      The sum of radiance towards `wo`.
-/// \param u        Position within each cell of the light.
-/// \param rays     Number of rays, at least 1.
-/// \param mis      How light is divided between these rays and a scattered ray.
-/// \param context  Its counters count the rays.
+/// Adds the radiance towards `wo` from one light: the mean of at least 1 shadow ray.
+/// \param u  Position within each cell of the light.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void
 add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
@@ -360,18 +343,12 @@ struct DirectLightSettings {
     Lobes next = Lobes::none;
 };
 
-/// The radiance that a surface reflects from all lights.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param settings  Method and number of rays. n rays divide each light into n cells,
-///                  and one ray goes to each cell.
-/// \param context   Two numbers are drawn for each light, except for a lamp that is too
-///                  faint to get a ray. One more may be drawn for
-///                  DirectLight::analytic, and three more for an extra ray. Rays are
-///                  counted. For a light with Verdict::shadow, n skipped rays are
-///                  counted.
-/// \param verdicts  Called with a light's index; returns its known visibility.
+/// The radiance that a surface reflects from all lights. n rays divide each light into
+/// n cells, and one ray goes to each cell. Two numbers are drawn for each light, except
+/// for a lamp that is too faint to get a ray. One more may be drawn for
+/// DirectLight::analytic, and three more for an extra ray. `verdicts` is called with a
+/// light's index and returns its known visibility. For a light with Verdict::shadow, n
+/// skipped rays are counted.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T, Material M, typename Context,
