@@ -319,13 +319,6 @@ template <std::floating_point T>
 /// between transmission and reflection at random.
 /// \{
 
-/// A material that transmits light without deflection: `pass_through(m, position, wo)`
-/// returns the transmittance. sample() of such a material returns reflection only.
-template <typename M>
-concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
-    { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
-};
-
 namespace detail {
 
 template <AnyWorld W>
@@ -401,8 +394,8 @@ template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> passed_through(const W& world,
                                                     const VertexT<T>& vertex) {
     return world.visit_material(
-        vertex.object.material, [&](const auto& m) -> std::optional<RgbT<T>> {
-            if constexpr (ThinSurface<std::remove_cvref_t<decltype(m)>>)
+        vertex.object.material, [&]<typename M>(const M& m) -> std::optional<RgbT<T>> {
+            if constexpr (ThinSurface<M>)
                 return pass_through(m, vertex.point.position, vertex.wo);
             else
                 return std::nullopt;
@@ -555,8 +548,7 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption coefficient in the body with a given rank, per scene unit; see
-/// BodyList. Nothing for rank 0, which is air.
+/// The absorption coefficient in a body of a rank, per scene unit; nothing for air.
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -714,9 +706,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
     if constexpr (detail::lists_dispersive<W>)
         detail::disperse(world, path, *vertex, *hit,
-                         passage.outside == 0 ? no_body
-                                              : world.material_of_rank(passage.outside),
-                         stream);
+                         world.material_of_rank(passage.outside), stream);
     if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
     detail::set_bodies(*vertex, world, path, passage.outside);
     vertex->medium = path.medium;
