@@ -81,7 +81,7 @@ template <std::floating_point T, std::floating_point U>
 
 /// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
 /// \cite rousselle2011. Like the eye, the metric responds to relative differences. The
-/// epsilon is a squared radiance above 0. Pixels darker than its square root count less.
+/// epsilon is a squared radiance above 0; pixels darker than its root count less.
 ///
 /// *Trap*: state the epsilon. Values with different epsilons cannot be compared, nor
 /// those of tools that divide by (r + epsilon)^2.

@@ -114,7 +114,7 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 /// photon with a black dot is skipped.
 /// \return The number of photons that were drawn.
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
-/// \cost One ray per drawn photon that lies within the picture.
+/// \cost One ray per photon within the picture whose dot is not black.
 /// \report{Section 3.2.2, Figs. 5 to 8}
 template <AnyWorld W, std::floating_point T, typename Color>
 long long add_photon_dots(ImageT<T>& image, const W& world, const CameraT<T>& camera,

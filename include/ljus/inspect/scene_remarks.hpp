@@ -66,7 +66,7 @@ template <AnyWorld W, std::floating_point T, typename K>
 /// Estimates are assumed to use all photons within the radius. The seed is for random
 /// points in the discs.
 /// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in total.
-/// \cost Five rays for each of at most 4096 photons.
+/// \cost About nine rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,
                                           const DensityEstimateOf<K>& gather,

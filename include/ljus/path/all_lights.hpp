@@ -63,6 +63,16 @@ template <std::floating_point T>
     return lamp.form_factor * material.albedo * lamp.radiance;
 }
 
+/// `all` times arrived / sent, per channel; 0 where nothing was sent.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> visible_part(const RgbT<T>& all, const RgbT<T>& arrived,
+                                   const RgbT<T>& sent) noexcept {
+    RgbT<T> result{T(0)};
+    for (int c = 0; c < 3; ++c)
+        if (sent[c] > T(0)) result[c] = all[c] * (arrived[c] / sent[c]);
+    return result;
+}
+
 /// The radiance that a Lambertian surface reflects from one lamp: the unoccluded light
 /// in closed form, times the fraction of it that shadow rays find visible,
 ///
@@ -82,9 +92,8 @@ template <AnyWorld W, std::floating_point T, typename Place>
 analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
                const VertexT<T>& vertex, const LambertianT<T>& material, int rays,
                const Place& place, Counts& counts, Verdict verdict) {
-    RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
-    if (!(lamp.form_factor > T(0))) return result;
-    const RgbT<T> all = unoccluded(lamp, material);
+    RgbT<T> arrived{T(0)}, sent{T(0)};
+    if (!(lamp.form_factor > T(0))) return sent;
     const Strata cells = strata_for(rays);
     for (int i = 0; i < rays; ++i) {
         const LightShareT<T> share = light_share(world, light, vertex, material,
@@ -92,9 +101,7 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
         arrived += share.arrived;
         sent += share.sent;
     }
-    for (int c = 0; c < 3; ++c)
-        if (sent[c] > T(0)) result[c] = all[c] * (arrived[c] / sent[c]);
-    return result;
+    return visible_part(unoccluded(lamp, material), arrived, sent);
 }
 
 /// The emission of a lamp or of the sky that a scattered ray meets, with the weight of
@@ -139,9 +146,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     PathStateT<T> path{
         .ray = spawn_ray(vertex.point, next->wi, vertex.time),
         .throughput = next->sample.weight,
-        .medium =
-            detail::medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
-        .medium_known = !detail::leaves_body<M>(vertex.wo, next->sample.wi),
+        .medium = medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
+        .medium_known = !leaves_body<M>(vertex.wo, next->sample.wi),
         .previous = vertex.point.position,
         .depth = 1,
         .branch = std::uint64_t(1) << 44};
@@ -150,7 +156,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     const auto lamp = next_vertex(world, path, numbers);
     T reaching = next->sample.pdf;
     if constexpr (W::lists_fog) {
-        path.ray.t_max = lamp ? lamp->distance : path.ray.t_max;
+        if (lamp) path.ray.t_max = lamp->distance;
         const RgbT<T> through = fog_transmittance(world, path.ray);
         path.throughput *= through;
         reaching *= passing(through);
@@ -216,11 +222,8 @@ public:
         next_ -= whole;
         return int(whole);
     }
-    /// Adds the light of a faint lamp.
-    /// \param all      The unoccluded light of the lamp.
-    /// \param arrived  The result of analytic_light(); ignored if `rays` is 0.
-    /// \param rays     The number of rays to the lamp.
-    /// \param by_it    The result of sent_by() for the lamp.
+    /// Adds the light of a faint lamp: its unoccluded light, the result of
+    /// analytic_light(), the number of rays to the lamp, and the result of sent_by().
     void add(const RgbT<T>& all, const RgbT<T>& arrived, int rays, T by_it) noexcept {
         all_ += all;
         if (rays == 0) return;
@@ -230,10 +233,7 @@ public:
     }
     /// The light of all faint lamps.
     [[nodiscard]] RgbT<T> light() const noexcept {
-        RgbT<T> result{T(0)};
-        for (int c = 0; c < 3; ++c)
-            if (sent_[c] > T(0)) result[c] = all_[c] * (arrived_[c] / sent_[c]);
-        return result;
+        return visible_part(all_, arrived_, sent_);
     }
 
 private:

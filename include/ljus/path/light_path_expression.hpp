@@ -128,10 +128,8 @@ struct LightPathExpressionReader {
 
 } // namespace detail
 
-/// Compiles a class of paths.
-/// \param expression  For example "ES*D?L". It consists of at most 63 letters E, D, S,
-///                    L and '.', which stands for D or S, and of the usual operators
-///                    `| ( ) * + ?`.
+/// Compiles a class of paths, such as "ES*D?L": at most 63 letters E, D, S, L and '.',
+/// which stands for D or S, with the usual operators `| ( ) * + ?`.
 /// \throws std::invalid_argument  for an invalid expression, with the position of the
 ///         error.
 [[nodiscard]] constexpr LightPathExpression

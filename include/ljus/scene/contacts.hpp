@@ -490,8 +490,8 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 } // namespace detail
 
 /// Finds the contacts of a World whose shapes, objects and materials are complete, from
-/// the box of each object, in the order of types and indices. The order in which objects
-/// were added affects only the order of the contacts.
+/// the box of each object, in the order of types and indices. The order in which the
+/// objects were added affects only the order of the contacts.
 /// \cost O(n log n) for n boxes; less if neighbouring objects are opaque and have the
 ///       same material.
 template <typename W>

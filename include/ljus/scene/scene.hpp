@@ -266,13 +266,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return prototypes.keep(std::move(mesh));
     }
 
-    /// Adds a shape with a material of this scene.
-    /// \param shape       The shape.
-    /// \param material    The number of the material.
-    /// \param radiance    The radiance that the shape emits on the side of its normal,
-    ///                    in W/(m^2 sr). The emission of the material is added to it.
-    /// \param inside_out  Whether the normal points inwards, as in a room made of a
-    ///                    sphere.
+    /// Adds a shape with a material of this scene. `radiance`, in W/(m^2 sr), is
+    /// emitted on the side of the normal, in addition to the emission of the material.
+    /// `inside_out` tells whether the normal points inwards, as in a room made of a
+    /// sphere.
     /// \return The number of the object.
     /// \throws std::invalid_argument  if a value is out of range, or if the material is
     ///         unknown.

@@ -176,8 +176,8 @@ struct SceneHitT {
 /// members are always consistent.
 ///
 ///     const World world(std::move(scene));
-/// \tparam S        A Scene.
-/// \tparam Compute  The arithmetic of all intersections, as for intersect().
+///
+/// Compute is the arithmetic of all intersections, as for intersect().
 template <typename S, typename Compute = void>
 class World {
     static_assert(detail::is_scene<S>, "A World is made of a Scene.");
@@ -307,7 +307,7 @@ public:
         return object.light == no_light ? nullptr
                                         : picture_of(lights_[object.light].index);
     }
-    /// Whether a path can meet a light: whether the light is an object or fills the sky.
+    /// Whether a path can meet a light: whether it is an object or fills the sky.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
             if (lights_[light].is_light)
