@@ -15,7 +15,7 @@ namespace ljus {
 /// \{
 
 /// For each class of paths, the radiance that it adds to a picture, as a mean over all
-/// pixels. Progress is not called.
+/// pixels. RenderSettings::progress is not called.
 ///
 /// All classes are measured on the same random paths. The means of disjoint classes
 /// that cover all paths add up to the mean of the picture. A photon map reports one

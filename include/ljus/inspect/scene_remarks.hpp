@@ -431,8 +431,7 @@ template <AnyWorld W>
 
 } // namespace detail
 
-/// The warnings of a survey about a scene.
-/// \return Sentences without a full stop.
+/// The warnings of a survey about a scene, as sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string>
 scene_remarks(const W& world, const PhotonMappingSettings& settings) {
@@ -473,7 +472,6 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
 /// The warnings about the position of a camera: that the scene has no objects, or that
 /// the camera is so near to a surface that rounding decides on which side of the
 /// surface it is.
-/// \return Sentences without a full stop.
 /// \cost Six rays.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard, gnu::cold]] std::vector<std::string>
@@ -495,9 +493,8 @@ camera_remarks(const W& world, const Vec3T<T>& position) {
     return {};
 }
 
-/// The warnings about a photon mapper: those of scene_remarks(), then those about its
-/// photon passes.
-/// \return The warnings, one per line, each with a line feed.
+/// The warnings about a photon mapper, each with a line feed: those of scene_remarks(),
+/// then those about its photon passes.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;
@@ -520,7 +517,6 @@ template <typename Mapper>
 
 /// The remarks for path tracing: those of scene_remarks(), and one about light that no
 /// path carries. A path may meet a lamp or the sky, but never a light without a size.
-/// \return Sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {
     // Paths sample narrow lobes themselves, as with DirectLight::mis.

@@ -107,7 +107,6 @@ inline std::string of_all(const SceneNeeds& found, std::size_t count,
            " objects " + what;
 }
 
-// The reasons for shadow rays and indirect rays.
 inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                       const PhotonMappingSettings& settings) {
     plan.shadow_rays = {
@@ -123,7 +122,6 @@ inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                                   : "nothing is lit"};
 }
 
-// The reasons for the photon passes.
 inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                          const PhotonMappingSettings& settings) {
     const auto casters = [&] {
@@ -161,7 +159,6 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                                                 : "no map keeps them"};
 }
 
-// The reasons for leaving out rays.
 inline void plan_skipping(Plan& plan, const Passes& run,
                           const PhotonMappingSettings& settings) {
     const std::string photons = std::to_string(settings.general.photons) + " photons";

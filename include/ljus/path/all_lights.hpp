@@ -179,7 +179,7 @@ template <std::floating_point T>
 /// would get less than one ray is *faint*. The faint lamps share some rays. These go to
 /// lamps that are chosen in proportion to their unoccluded light. The light of all
 /// faint lamps is their unoccluded light, times the fraction of it that these rays find
-/// visible; the bias is that of analytic_light().
+/// visible, with the bias of analytic_light().
 template <std::floating_point T>
 class SharedRaysT {
 public:

@@ -246,9 +246,9 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
 
 /// The vertex at a hit of a ray with a unit direction. VertexT::medium is not set.
 ///
-/// The frame is set around the shading normal. If the shading normal and the geometric
-/// normal disagree about the side on which the ray arrives, the frame is set around the
-/// geometric normal. The sign of wo.z therefore always gives the side.
+/// The frame is set around the shading normal or, if the two normals disagree about the
+/// side on which the ray arrives, around the geometric normal. The sign of wo.z
+/// therefore always gives the side.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
@@ -595,8 +595,7 @@ template <AnyWorld W, std::floating_point T>
 
 /// The absorption coefficient at the origin of a ray, per scene unit: interior_at(), or
 /// 0 outside all bodies.
-/// \cost Only a comparison if the origin is outside the bounding box of all bodies that
-///       absorb.
+/// \cost Only a comparison outside the bounding box of all absorbing bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, const RayT<T>& ray) {
     if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
@@ -636,8 +635,7 @@ template <AnyWorld W, std::floating_point T>
 
 /// Whether a ray may cross fog: the scene has fog, and the ray does not start inside a
 /// body, where there is no fog.
-/// \cost Only a comparison if the origin is outside the bounding box of all transparent
-///       bodies.
+/// \cost Only a comparison outside the bounding box of all transparent bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
     if (!world.has_fog()) return false;

@@ -71,8 +71,7 @@ inline constexpr MaterialId no_body{0xffffffffu, 0};
 /// number of the object.
 using ContactKey = std::array<double, 16>;
 
-/// Stands for the position of an object without contacts, and for the end of a list of
-/// contacts.
+/// The position of an object without contacts, and the end of a list of contacts.
 inline constexpr std::uint32_t no_contact = 0xffffffffu;
 
 /// Two objects that share an area or a point.
@@ -344,8 +343,7 @@ struct ContactPieces {
     std::vector<std::uint32_t> number{}; ///< The piece's number within the object.
 };
 
-/// Lists the pieces of all objects. Of a mesh, only pieces close to other objects are
-/// listed.
+/// Lists the pieces of all objects; of a mesh, only those close to other objects.
 [[nodiscard, gnu::cold]] inline ContactPieces
 list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks,
             long long& budget) {
@@ -423,8 +421,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an
-/// object. The areas are rounded to whole numbers, because a sum of whole numbers does
-/// not depend on the order.
+/// object. A sum of whole numbers does not depend on the order.
 [[nodiscard, gnu::cold]] inline std::vector<double>
 covered_areas(std::span<const ContactObject> objects, std::size_t materials) {
     std::vector<double> covered(materials);

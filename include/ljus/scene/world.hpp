@@ -251,7 +251,7 @@ public:
     [[nodiscard]] MaterialId material_of_rank(std::uint8_t rank) const noexcept {
         return rank == 0 ? no_body : ranks_.materials[rank - 1u];
     }
-    /// The contacts: which objects have surfaces in one place.
+    /// The objects that have surfaces in one place.
     [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
     /// Whether surfaces of several objects may lie at the point t of a ray.
     /// \cost A comparison in a scene without contacts.
@@ -350,8 +350,7 @@ public:
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
-    /// The same as any_material(), for only those types of which the scene has a
-    /// material.
+    /// The same as any_material(), for the types of which the scene has a material.
     template <typename F>
     [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
         return detail::any_array(materials_,
