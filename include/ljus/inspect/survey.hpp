@@ -260,21 +260,18 @@ template <AnyWorld W>
 template <AnyWorld W>
 [[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {
     std::vector<std::string> lines;
-    // Returning false continues with the next type.
+    const auto add = [&](const std::string& type, const auto& hooks) {
+        lines.push_back(type + " " + detail::to_line(hooks));
+        return false; // continues with the next type
+    };
     (void)W::any_shape([&]<typename G>() {
-        lines.push_back("shape " + detail::type_name<G>() + " " +
-                        detail::to_line(detail::shape_hooks<G>()));
-        return false;
+        return add("shape " + detail::type_name<G>(), detail::shape_hooks<G>());
     });
     (void)W::any_material([&]<typename M>() {
-        lines.push_back("material " + detail::type_name<M>() + " " +
-                        detail::to_line(detail::material_hooks<M>()));
-        return false;
+        return add("material " + detail::type_name<M>(), detail::material_hooks<M>());
     });
     (void)W::any_light([&]<typename L>() {
-        lines.push_back("light " + detail::type_name<L>() + " " +
-                        detail::to_line(detail::light_hooks<L>()));
-        return false;
+        return add("light " + detail::type_name<L>(), detail::light_hooks<L>());
     });
     return lines;
 }
