@@ -3,11 +3,10 @@
 /// \file ljus/core.hpp
 /// \brief The templates that the optional library ljus::core compiles, in float.
 ///
-/// Code that does not depend on a scene's types can be compiled once for all programs.
-/// The library ljus::core contains this code. A program uses the library if it defines
-/// `LJUS_CORE` and is linked with ljus::core.
-/// ljus.hpp then includes this list, which declares the instantiations. core/core.cpp
-/// defines them. To add an instantiation, add a line here.
+/// The library ljus::core contains code that does not depend on a scene's types, and is
+/// compiled once for all programs. A program uses the library if it defines `LJUS_CORE`
+/// and is linked with ljus::core. ljus.hpp then includes this list, which declares the
+/// instantiations. core/core.cpp defines them.
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/inspect/survey.hpp"
@@ -18,8 +17,8 @@
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/scene/camera.hpp"
 
-/// The keyword `extern` in a program, because the program only declares the
-/// instantiations. The macro is empty in core/core.cpp, which defines them.
+/// `extern` in a program, which only declares the instantiations; empty in
+/// core/core.cpp.
 #ifndef LJUS_CORE_EXTERN
 #define LJUS_CORE_EXTERN extern
 #endif

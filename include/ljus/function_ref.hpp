@@ -20,12 +20,10 @@ class FunctionRef;
 /// returns an R. A function that takes a FunctionRef is compiled once, not once per
 /// type of callable. The class resembles std::function_ref of C++26, but cannot refer
 /// to a plain function.
-///
-/// The callable must outlive the reference. A temporary does not compile.
 template <typename R, typename... A>
 class FunctionRef<R(A...)> {
 public:
-    /// Refers to a callable that is not a temporary.
+    /// Refers to a callable, which must outlive the reference.
     template <typename F>
     requires(
         !std::same_as<std::remove_cv_t<F>, FunctionRef> && std::is_object_v<F> &&
@@ -35,7 +33,7 @@ public:
                   (*static_cast<F*>(const_cast<void*>(f)))(static_cast<A&&>(a)...));
           }) {}
 
-    /// Refuses a temporary: give the callable a name.
+    /// A temporary ends too early: give the callable a name.
     template <typename F>
     requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(const F&&)
     = delete;

@@ -19,46 +19,33 @@ namespace ljus {
 /// \defgroup parallel Parallel loops
 /// \brief Loops with the same result, byte by byte, on any number of threads.
 ///
-/// The iterations of a loop are divided into blocks. The division does not depend on
-/// the number of threads. A block writes only its own results. Sums are formed per
-/// block, and the sums of the blocks are added in the order of the blocks. Without
-/// OpenMP the blocks run one after the other.
+/// A loop is divided into blocks, in the same way for any number of threads. A block
+/// writes only its own results. The sums of the blocks are added in the order of the
+/// blocks. Without OpenMP the blocks run one after the other.
 /// \{
 
 /// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// The callback of a long loop: any object, but not a temporary, that can be called as
-/// `bool progress(long long done, long long total)`. The loop stops if the callback
-/// returns false.
+/// The callback of a long loop: a callable that outlives the loop; see FunctionRef. The
+/// loop stops if the callback returns false.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };
 ///     parallel_blocks(count, body, {.progress = progress});
-///
-/// The callable must live as long as the loop: see FunctionRef.
 using Progress = FunctionRef<bool(long long done, long long total)>;
 
-namespace detail {
-
-struct NoProgress {
-    constexpr bool operator()(long long, long long) const noexcept { return true; }
-};
-
-} // namespace detail
-
 /// The default callback. It does nothing and never stops the loop.
-inline constexpr detail::NoProgress no_progress;
+inline constexpr auto no_progress = [](long long, long long) noexcept { return true; };
 
 /// The settings of a parallel loop.
 struct ParallelSettings {
-    /// Number of threads, at most max_threads_allowed; 0 stands for max_threads().
-    int threads = 0;
+    int threads = 0; ///< At most max_threads_allowed; 0 stands for max_threads().
     Progress progress = no_progress; ///< Called after blocks, by one thread at a time.
 };
 
-/// The number of threads that `threads = 0` stands for. It is the value of the
-/// environment variable OMP_NUM_THREADS or, if that is not set, the number of
-/// processors. It is at most max_threads_allowed. Without OpenMP it is 1.
+/// The number of threads that `threads = 0` stands for: the value of the environment
+/// variable OMP_NUM_THREADS or, if that is not set, the number of processors; at most
+/// max_threads_allowed. Without OpenMP it is 1.
 [[nodiscard]] inline int max_threads() noexcept {
 #ifdef _OPENMP
     const int most = omp_get_max_threads();
@@ -70,8 +57,7 @@ struct ParallelSettings {
 
 namespace detail {
 
-/// The number of blocks of `size` items that cover `total` items; the last block may
-/// have fewer items.
+/// The number of blocks of `size` items that cover `total` items.
 [[nodiscard]] constexpr long long block_count(long long total,
                                               long long size) noexcept {
     return total / size + (total % size != 0 ? 1 : 0);
@@ -79,22 +65,16 @@ namespace detail {
 
 /// The items i of a block, with first <= i < last.
 struct BlockRange {
-    long long first = 0; ///< The first item.
-    long long last = 0;  ///< One past the last item.
+    long long first = 0, last = 0;
 };
 
-/// The items of block number `block`.
-/// \param block  From 0 to block_count(total, size) - 1.
-/// \param size   Items per block.
-/// \param total  The number of all items.
+/// The items of a block, whose number is below block_count(total, size).
 [[nodiscard]] constexpr BlockRange block_range(long long block, long long size,
                                                long long total) noexcept {
     const long long first = block * size;
     return {first, total - first < size ? total : first + size};
 }
 
-// A reference to the body of a loop. A function that takes it is compiled once for all
-// bodies.
 using BlockBody = FunctionRef<void(long long block)>;
 
 // Implements parallel_blocks().
@@ -152,7 +132,6 @@ struct BlockLoop {
     long long next = 0;             // the next block to begin
     long long done = 0;             // the number of completed blocks
     bool stop = false;              // no further block may begin
-    bool stopped = false;           // progress returned false
     bool reporting = false;         // a thread is in progress()
     long long reported = 0;         // the last `done` that progress received
     long long failed_block = count; // the lowest block that threw
@@ -187,15 +166,14 @@ struct BlockLoop {
         long long now = 0;
         {
             const LockGuard turn(turns);
-            if (reporting || stopped || done <= reported) return;
+            if (reporting || stop || done <= reported) return;
             reporting = true;
             now = reported = done;
         }
         const bool go_on = progress(now, count);
         const LockGuard turn(turns);
         reporting = false;
-        stopped = !go_on;
-        stop = stop || stopped;
+        stop = stop || !go_on;
     }
 
     // Keeps the current exception if its block is the lowest that threw. Blocks begin
@@ -254,10 +232,9 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 /// second. A loop inside a body runs on the thread that calls it.
 /// \param count    The number of blocks. If it is 0 or negative, there are none.
 /// \param body     Called as body(long long), concurrently and in any order.
-/// \param options  The number of threads and the callback. `progress(done, total)` is
-///                 called after a block, unless another thread is in the callback.
-///                 `done` is larger in each call. When all blocks are done, (count,
-///                 count) has been reported once.
+/// \param options  The number of threads and the callback. The callback is called after
+///                 a block, unless another thread is in it. `done` is larger in each
+///                 call. When all blocks are done, (count, count) has been reported.
 /// \return True if all blocks ran; false if `progress` stopped the loop.
 /// \throws std::invalid_argument  if `options.threads` is not within [0, 1024]. If a
 ///         body or `progress` throws, no further block begins, and the loop throws the

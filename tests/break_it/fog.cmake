@@ -49,8 +49,8 @@ ljus_break_it(NAME fog-shadow-ray HEADER path/next_vertex.hpp TEST fog
 
 # A shadow ray does not have unit length.
 ljus_break_it(NAME fog-length HEADER path/next_vertex.hpp TEST fog
-    FROM "depth += (span->last - span->first) * unit *"
-    TO   "depth += (span->last - span->first) *"
+    FROM "depth += (span.last - span.first) * unit *"
+    TO   "depth += (span.last - span.first) *"
     CASES "fog: it dims the shadow rays*")
 
 # Fog is in glass, and nowhere near it.

@@ -49,20 +49,20 @@ ljus_break_it(NAME parallel-done HEADER parallel.hpp TEST parallel
 
 # Two threads tell of what is done at a time.
 ljus_break_it(NAME parallel-two-tell HEADER parallel.hpp TEST parallel
-    FROM "reporting || stopped ||"
-    TO   "stopped ||"
+    FROM "reporting || stop ||"
+    TO   "stop ||"
     CASES "parallel: while one thread tells*")
 
 # That progress says "go on" makes up for what a block threw.
 ljus_break_it(NAME parallel-stop-forgotten HEADER parallel.hpp TEST parallel
-    FROM "stop = stop || stopped;"
-    TO   "stop = stopped;"
+    FROM "stop = stop || !go_on;"
+    TO   "stop = !go_on;"
     CASES "parallel: what a block threw*")
 
 # Stopped at the last block is taken for not finished.
 ljus_break_it(NAME parallel-last-block HEADER parallel.hpp TEST parallel
     FROM "return loop.done >= count;"
-    TO   "return !loop.stopped;"
+    TO   "return !loop.stop;"
     CASES "parallel: false at the very last*")
 
 # One stream of random numbers for all threads: whoever comes first draws first, and no
@@ -75,7 +75,7 @@ ljus_break_it(NAME render-shared-stream HEADER render/render.hpp TEST render
 
 # Whoever said stop is asked again by each block that was under way.
 ljus_break_it(NAME parallel-asked-again HEADER parallel.hpp TEST parallel
-    FROM "if (reporting || stopped || done <= reported) return;"
+    FROM "if (reporting || stop || done <= reported) return;"
     TO   "if (reporting || done <= reported) return;"
     CASES "parallel: whoever said stop*")
 

@@ -101,6 +101,6 @@ ljus_break_it(NAME rough_glass-medium HEADER path/direct_light.hpp
 # The same for rays that the material samples.
 ljus_break_it(NAME rough_glass-medium-sampled HEADER path/all_lights.hpp
     TEST rough_glass_scenes
-    FROM "!detail::leaves_body<M>(vertex.wo, next->sample.wi)"
+    FROM "!leaves_body<M>(vertex.wo, next->sample.wi)"
     TO   "true"
     CASES "rough glass scenes: a shadow ray out*")

@@ -43,6 +43,6 @@ ljus_break_it(NAME survey-gloss HEADER render/passes.hpp TEST survey
 
 # Lamps are taken for lights that no path meets, and suns for lamps.
 ljus_break_it(NAME survey-never-met HEADER inspect/scene_remarks.hpp TEST survey
-    FROM "never_met += world.visit_light(i, is_met) ? 0 : 1;"
-    TO   "never_met += world.visit_light(i, is_met) ? 1 : 0;"
+    FROM "never_met += world.can_be_met(i) ? 0 : 1;"
+    TO   "never_met += world.can_be_met(i) ? 1 : 0;"
     CASES "survey: the light that no path carries*")

@@ -51,10 +51,8 @@ struct PhotonCensus {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// Counts the photons of a list, by kind.
-/// \param photons  Photons, or the records of a map: any list with operator[] and
-///                 size() whose elements have a kind and a flux.
-/// \cost One pass over the list.
+/// Counts the photons of any list with operator[] and size() whose elements have a kind
+/// and a flux.
 template <typename Photons>
 requires requires(const Photons& p) {
     { p[p.size() - 1].kind } -> std::convertible_to<PhotonKind>;

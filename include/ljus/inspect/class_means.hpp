@@ -15,19 +15,14 @@ namespace ljus {
 /// \{
 
 /// For each class of paths, the radiance that it adds to a picture, as a mean over all
-/// pixels.
+/// pixels. RenderSettings::progress is not called.
 ///
-/// The renderer reports each term with the letters of its path, from which the class is
-/// known. All classes are measured on the same random paths. The means of disjoint
-/// classes that cover all paths add up to the mean of the picture.
-/// \param renderer  Any Renderer.
-/// \param camera    As for render().
-/// \param picture   As for render(), but progress is not called.
-/// \param classes   Classes made by light_path_expression(). A photon map reports one
-///                  term for many paths, such as "DS+L"; the term counts as the
-///                  shortest of them, see ExpressionLog.
+/// All classes are measured on the same random paths. The means of disjoint classes
+/// that cover all paths add up to the mean of the picture. A photon map reports one
+/// term for many paths, such as "DS+L"; the term counts as the shortest of them.
 /// \return One mean per class, in W/(m^2 sr), the same for any number of threads.
-/// \throws std::invalid_argument  if the size or the number of rays is below 1.
+/// \throws std::invalid_argument  if the size or the number of rays is below 1, or if
+///         the renderer does not carry the fog of its scene.
 /// \cost One picture, and a few bit operations per letter of a path and class.
 /// \report{Section 2}
 template <typename R, CameraLike C>

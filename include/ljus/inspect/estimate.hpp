@@ -16,20 +16,16 @@ namespace ljus {
 /// 1 and 2.1). Chapter: \ref ch_monte_carlo.
 /// \{
 
-/// A running mean and variance, by Welford's sums \cite welford1962.
-///
-/// Variance could be computed from the sums of x and of x^2. Where the mean is much
-/// larger than the deviation, the difference of these sums is lost by rounding.
-/// Welford's sum of squared distances from the mean keeps its precision.
+/// A running mean and variance, by Welford's sums \cite welford1962. A variance from
+/// the sums of x and x^2 would be lost by rounding where the mean is much larger than
+/// the deviation.
 struct Estimate {
     double count = 0;   ///< n, the number of samples.
     double mean = 0;    ///< Mean of the samples.
     double squares = 0; ///< Sum of (x - mean)^2 over the samples x.
 };
 
-/// Adds one sample.
-/// \param estimate  The estimate of the samples so far.
-/// \param x         The sample; a NaN makes the result NaN.
+/// Adds one sample. A NaN makes the estimate NaN.
 // [add]
 constexpr void add(Estimate& estimate, double x) noexcept {
     estimate.count += 1;
@@ -50,9 +46,8 @@ constexpr void add(Estimate& estimate, double x) noexcept {
                 a.squares + b.squares + apart * apart * (a.count * b.count / count)};
 }
 
-/// The unbiased estimate of the variance of one sample.
-/// \return The sum of (x - mean)^2 over all samples x, divided by n - 1; infinity for
-///         fewer than 2 samples.
+/// The unbiased estimate of the variance of one sample: `squares` divided by n - 1;
+/// infinity for fewer than 2 samples.
 [[nodiscard]] constexpr double variance(const Estimate& estimate) noexcept {
     if (estimate.count < 2) return std::numeric_limits<double>::infinity();
     return estimate.squares / (estimate.count - 1);

@@ -15,10 +15,7 @@ namespace ljus {
 
 /// \defgroup explain One pixel explained
 /// \brief The vertices of a pixel's paths, the owner of each contribution, and the
-/// sums.
-///
-/// E is the eye, D a surface that scatters, S a mirror or glass, L a light
-/// \cite heckbert1990.
+/// sums, in Heckbert's letters \cite heckbert1990; see \ref light_path_expression.
 /// \{
 
 namespace detail {
@@ -38,10 +35,10 @@ template <std::floating_point T>
 struct ExplainedPixelT {
     /// The radiance of the pixel, the same as in render() to the last bit.
     RgbT<T> radiance{T(0)};
-    std::vector<detail::PathSum> sums{}; ///< Contributions, brightest first; their sum
-                                         ///< is the radiance.
-    std::vector<PathLog> first_rays{};   ///< The first few rays, vertex by vertex.
-    int samples = 0;                     ///< The number of rays.
+    /// Contributions, brightest first; their sum is the radiance.
+    std::vector<detail::PathSum> sums{};
+    std::vector<PathLog> first_rays{}; ///< The first few rays, vertex by vertex.
+    int samples = 0;                   ///< The number of rays.
     int rejected = 0; ///< Rays that are left out because their radiance is not finite.
 };
 
@@ -108,12 +105,6 @@ inline std::string spaced(const std::string& letters) {
     return text;
 }
 
-inline std::string three_numbers(const glm::dvec3& v) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%9.4g %9.4g %9.4g", v.x, v.y, v.z);
-    return text;
-}
-
 inline std::string padded(std::string text, std::size_t width) {
     if (text.size() < width) text.append(width - text.size(), ' ');
     return text;
@@ -122,8 +113,10 @@ inline std::string padded(std::string text, std::size_t width) {
 // A line such as "  E D L    shadow ray    0.31 0.30 0.28", without a line feed.
 inline std::string line_of(const std::string& letters, const std::string& what,
                            const glm::dvec3& value) {
-    return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) +
-           three_numbers(value);
+    char numbers[96];
+    std::snprintf(numbers, sizeof numbers, "%9.4g %9.4g %9.4g", value.x, value.y,
+                  value.z);
+    return "  " + padded(spaced(letters), 26) + " " + padded(what, 14) + numbers;
 }
 
 // The line of one vertex or one term of a path.
@@ -171,14 +164,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// Explains one pixel of a picture.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    The camera.
-/// \param picture   Size, rays, seed: the same as in render().
-/// \param x         Column of the pixel, from the left.
-/// \param y         Row of the pixel, from the top.
-/// \return A text: the first rays with each vertex and each term, then the sum over all
-///         rays for each kind of path, such as "E D L shadow ray 0.31 0.30 0.28".
+/// Explains the pixel in column x from the left and row y from the top, for any
+/// Renderer and the settings of render().
+/// \return A text: the first rays with each vertex and each term, then the mean over
+///         all rays for each kind of path, such as "E D L shadow ray 0.31 0.30 0.28".
 /// \throws std::invalid_argument  if the pixel lies outside the picture.
 template <typename R, CameraLike C>
 [[nodiscard]] std::string explain(const R& renderer, const C& camera,

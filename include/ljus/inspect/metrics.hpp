@@ -22,9 +22,9 @@ namespace ljus {
 ///
 /// x is the picture and r the reference. Every metric is at least 0, and 0 for equal
 /// pictures; a NaN in a picture makes the metric NaN. The reference should come from
-/// another algorithm and seed, with at most a tenth of the error to be measured. One
-/// metric alone is not enough: state relMSE together with the block error, which shows
-/// bias, and the trimmed error, which leaves out fireflies.
+/// another algorithm and seed, with at most a tenth of the error to be measured. State
+/// relMSE together with the block error, which shows bias, and the trimmed error, which
+/// leaves out fireflies.
 /// \{
 
 /// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
@@ -32,10 +32,6 @@ namespace ljus {
 inline constexpr double default_epsilon = 0.01;
 
 namespace detail {
-
-inline void require_epsilon(double epsilon) {
-    require_positive("the epsilon of a relative error", epsilon);
-}
 
 inline void require_runs(std::size_t runs) {
     require_at_least("the number of runs", static_cast<long long>(runs), 2);
@@ -56,22 +52,23 @@ std::vector<double> pixel_errors(const ImageT<T>& image, const ImageT<U>& refere
 }
 
 inline double mean(const std::vector<double>& values) {
-    return ljus::detail::pairwise_sum(values) / static_cast<double>(values.size());
+    return pairwise_sum(values) / static_cast<double>(values.size());
 }
 
-// The squared relative error of one channel.
-struct RelativeSquare {
-    double epsilon;
-    double operator()(double x, double r) const noexcept {
+// The squared relative errors of all pixels.
+template <std::floating_point T, std::floating_point U>
+std::vector<double> relative_errors(const ImageT<T>& image, const ImageT<U>& reference,
+                                    double epsilon) {
+    require_positive("the epsilon of a relative error", epsilon);
+    return pixel_errors(image, reference, [epsilon](double x, double r) {
         return (x - r) * (x - r) / (r * r + epsilon);
-    }
-};
+    });
+}
 
 } // namespace detail
 
-/// The root mean square error, sqrt(mean (x - r)^2), of a picture x against a reference
-/// r. Theory uses this metric: for an unbiased method with n samples, the metric falls
-/// as 1/sqrt(n).
+/// The root mean square error, sqrt(mean (x - r)^2). For an unbiased method with n
+/// samples, the metric falls as 1/sqrt(n).
 ///
 /// *Trap*: a few highlights dominate the metric, and dark regions hardly count.
 /// \return The error, in units of radiance.
@@ -82,27 +79,24 @@ template <std::floating_point T, std::floating_point U>
     return std::sqrt(detail::mean(detail::pixel_errors(image, reference, square)));
 }
 
-/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon), of a picture x
-/// against a reference r \cite rousselle2011. Like the eye, the metric responds to
-/// relative differences.
+/// The relative mean square error, mean (x - r)^2 / (r^2 + epsilon)
+/// \cite rousselle2011. Like the eye, the metric responds to relative differences. The
+/// epsilon is a squared radiance above 0; pixels darker than its root count less.
 ///
-/// *Trap*: state the epsilon, because values with different epsilons cannot be
-/// compared. Some tools divide by (r + epsilon)^2 instead; their values cannot be
-/// compared with these. The epsilon is a squared radiance above 0. Pixels darker than
-/// its square root count less.
+/// *Trap*: state the epsilon. Values with different epsilons cannot be compared, nor
+/// those of tools that divide by (r + epsilon)^2.
 /// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                              double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
-    return detail::mean(
-        detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon}));
+    return detail::mean(detail::relative_errors(image, reference, epsilon));
 }
 
-/// The relative mean square error of a picture without its worst pixels. These are the
-/// pixels whose error, as a mean over the channels, is largest. Their fraction is
-/// `dropped`, in [0, 1). Without the worst 1 %, fireflies hardly influence the metric.
+/// The relative mean square error without the pixels whose error, as a mean over the
+/// channels, is largest. Their fraction is `dropped`, in [0, 1). Without the worst 1 %,
+/// fireflies hardly influence the metric.
+///
 /// *Trap*: the metric favours a method that puts much light into few pixels. State it
 /// beside rel_mse(), never in its place.
 /// \return Dimensionless, at most rel_mse().
@@ -111,11 +105,9 @@ template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double trimmed_rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                                      double dropped = 0.01,
                                      double epsilon = default_epsilon) {
-    detail::require_epsilon(epsilon);
     require(dropped >= 0.0 && dropped < 1.0, "the fraction of pixels to drop", dropped,
             "within [0, 1)");
-    std::vector<double> errors =
-        detail::pixel_errors(image, reference, detail::RelativeSquare{epsilon});
+    std::vector<double> errors = detail::relative_errors(image, reference, epsilon);
     // A NaN cannot be ordered, and is returned.
     for (const double error : errors)
         if (std::isnan(error)) return error;
@@ -128,11 +120,9 @@ template <std::floating_point T, std::floating_point U>
     return detail::mean(errors);
 }
 
-/// The image of block means: each pixel is the mean of a square block of pixels. If the
-/// width or height is no multiple of the block's side, the blocks of the last column or
-/// row are narrower, and each is the mean of the pixels that it has.
-/// \param image  The picture.
-/// \param size   Side of a block in pixels, at least 1.
+/// The image of the means of square blocks with sides of `size` pixels, at least 1. If
+/// the width or height is no multiple of the size, the blocks of the last column or row
+/// are narrower.
 /// \return An image of ceil(width/size) x ceil(height/size), in double.
 /// \throws std::invalid_argument  as check(image), or for a size below 1.
 template <std::floating_point T>
@@ -153,12 +143,11 @@ template <std::floating_point T>
     return means;
 }
 
-/// The rel_mse() of the block means of two pictures, which measures bias. By default a
-/// block has 10 x 10 pixels. In the squared error of such a block, noise that is
-/// independent between pixels is 100 times weaker, but an error that neighbouring
-/// pixels share is as large as before. A blur that stays within blocks does not show.
-/// Narrow blocks at the right and lower edge have the weight of whole blocks; see
-/// block_means().
+/// The rel_mse() of the block_means() of two pictures, which measures bias. In the
+/// squared error of a block of 10 x 10 pixels, noise that is independent between pixels
+/// is 100 times weaker, but an error that neighbouring pixels share is as large as
+/// before. A blur that stays within blocks does not show. Narrow blocks at the right
+/// and lower edge have the weight of whole blocks.
 ///
 /// *Trap*: with photon maps, neighbouring pixels share photons. Their noise therefore
 /// remains in the block means. Use several seeds and bias_variance() instead.
@@ -177,18 +166,16 @@ struct BiasVariance {
     double variance = 0.0;     ///< The variance of a single run, which is its noise.
 };
 
-/// Splits the mean square error of a method by running it with several seeds. For each
-/// pixel and channel, x is the value of a run, r that of the reference, and m the mean
-/// of the M runs. Then variance = sum (x - m)^2 / (M - 1), and bias^2 = (m - r)^2 -
-/// variance / M, where the last term is the noise that m still has. The sum of bias^2
-/// and variance is the expected mean square error of a run. Noise that neighbouring
-/// pixels share, as with photon maps, does not count as bias, because whole runs are
-/// compared.
+/// Splits the mean square error of a method by at least 2 runs with independent seeds.
+/// For each pixel and channel, x is the value of a run, r that of the reference, and m
+/// the mean of the M runs. Then variance = sum (x - m)^2 / (M - 1), and bias^2 =
+/// (m - r)^2 - variance / M, where the last term is the noise that m still has. The
+/// sum of bias^2 and variance is the expected mean square error of a run. Noise that
+/// neighbouring pixels share, as with photon maps, does not count as bias. Noise of the
+/// reference does.
 ///
 /// *Trap*: the estimate of bias^2 for a method without bias may be negative by chance.
 /// The estimate is not clamped to 0, because clamping would bias it.
-/// \param runs       At least 2 pictures of the same size, with independent seeds.
-/// \param reference  The reference, of that size. Its own noise adds to bias^2.
 /// \return Both terms, in units of radiance squared.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
 template <std::floating_point T, std::floating_point U>
@@ -222,13 +209,13 @@ struct BlockStatistics {
     std::size_t runs = 0;          ///< The number of runs.
 };
 
-/// Computes the block means of several runs, with standard errors. Let b be the mean of
-/// a block in one of M runs, and m the mean of all b. Then the standard error of m is
-/// sqrt(sum (b - m)^2 / (M - 1) / M). This holds for photon maps too, whose pixels are
-/// correlated, because whole runs are compared. *Trap*: the standard error is itself an
-/// estimate. Its relative error is 1/sqrt(2(M - 1)): 71 % with two runs, 18 % with 16.
-/// \param runs  At least 2 pictures of the same size, with independent seeds.
-/// \param size  Side of a block in pixels, at least 1.
+/// Computes the block means of at least 2 runs with independent seeds, with standard
+/// errors. Let b be the mean of a block in one of M runs, and m the mean of all b. Then
+/// the standard error of m is sqrt(sum (b - m)^2 / (M - 1) / M). This holds for photon
+/// maps too, whose pixels are correlated, because whole runs are compared.
+///
+/// *Trap*: the standard error is itself an estimate. Its relative error is
+/// 1/sqrt(2(M - 1)): 71 % with two runs, 18 % with 16.
 /// \return Means and standard errors, in units of radiance.
 /// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size() and
 ///         block_means().
@@ -258,12 +245,9 @@ template <std::floating_point T>
     return result;
 }
 
-/// The difference between the block means of several runs and those of a reference, in
-/// standard errors of the runs' mean. If the runs differ from the reference by noise
-/// only, most of these numbers are below 3; see chance_beyond().
-/// \param runs       At least 2 pictures of the same size, with independent seeds.
-/// \param reference  A picture of the same size, without noise.
-/// \param size       Side of a block in pixels, at least 1.
+/// The difference between the block_statistics() of several runs and the block means of
+/// a reference without noise, in standard errors. If the runs differ from the reference
+/// by noise only, most of these numbers are below 3; see chance_beyond().
 /// \return For each block, row by row, one number of at least 0 per channel. Infinity
 ///         for a block that is equal in all runs but differs from the reference.
 /// \throws std::invalid_argument  as block_statistics().

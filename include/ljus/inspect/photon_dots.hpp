@@ -65,12 +65,10 @@ template <std::floating_point T>
     return largest > T(0) ? photon.flux / largest : RgbT<T>{T(0)};
 }
 
-/// The position of a photon in the picture. The photon is visible if nothing, glass
-/// included, lies between it and the camera, and if it is on the side of its surface
-/// that faces the camera. An occluder counts only if it is nearer than the photon by a
-/// thousandth of the distance or more.
-/// \return The position in pixels, from the upper left corner; nothing if the photon is
-///         hidden or outside the picture.
+/// The position of a photon in the picture, in pixels from the upper left corner.
+/// Nothing if the photon is outside the picture, on the side of its surface that does
+/// not face the camera, or occluded, even by glass. An occluder counts only if it is
+/// nearer than the photon by more than a thousandth of the distance.
 /// \cost One ray.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>
@@ -112,11 +110,11 @@ void add_dot(ImageT<T>& image, const Vec2T<T>& place, const RgbT<T>& color,
 } // namespace detail
 
 /// Draws photons over a picture of their scene, such as one made by scene_drawing().
-/// The function `color` returns the colour of a photon's dot, such as dot_color(). A
+/// The function `color`, such as dot_color(), returns the colour of a photon's dot. A
 /// photon with a black dot is skipped.
 /// \return The number of photons that were drawn.
 /// \throws std::invalid_argument  if the radius of a dot is not in (0, 1000].
-/// \cost One ray per drawn photon that lies within the picture.
+/// \cost One ray per photon within the picture whose dot is not black.
 /// \report{Section 3.2.2, Figs. 5 to 8}
 template <AnyWorld W, std::floating_point T, typename Color>
 long long add_photon_dots(ImageT<T>& image, const W& world, const CameraT<T>& camera,

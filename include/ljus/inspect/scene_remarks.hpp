@@ -29,11 +29,11 @@ namespace ljus {
 
 namespace detail {
 
-/// The part of a photon's flux that estimates find on the surfaces along one line. The
-/// line crosses the photon's disc at a right angle. On a flat surface the part is about
+/// The fraction of a photon's flux that estimates find on the surfaces along one line,
+/// which crosses the photon's disc at a right angle. On a flat surface this is about
 /// the kernel's weight.
-/// \param offset   The vector from the photon to the line, within the disc, in units of
-///                 the radius.
+/// \param offset  The vector from the photon to the line, within the disc, in units of
+///                the radius.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard]] double found_along(const W& world, const SurfacePointT<T>& photon,
                                  const Vec3T<T>& offset,
@@ -60,13 +60,13 @@ template <AnyWorld W, std::floating_point T, typename K>
 
 } // namespace detail
 
-/// The fraction of light that estimates lose at the edges of an object. The object that
-/// loses most counts. An estimate spreads each photon over a disc, and flux beyond the
-/// edges of the object is lost. Objects with few sampled photons count together, as one
-/// object. Estimates are assumed to use all photons within the radius. The seed is for
-/// random points in the discs.
+/// The fraction of light that estimates lose at the edges of the object that loses
+/// most. An estimate spreads each photon over a disc, and flux beyond the edges of the
+/// object is lost. Objects with few sampled photons count together, as one object.
+/// Estimates are assumed to use all photons within the radius. The seed is for random
+/// points in the discs.
 /// \return In [0, 1]; 0 if fewer than 16 sampled photons landed in total.
-/// \cost Five rays for each of at most 4096 photons.
+/// \cost About nine rays for each of at most 4096 photons.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard, gnu::cold]] double edge_loss(const W& world, const PhotonMapT<T>& map,
                                           const DensityEstimateOf<K>& gather,
@@ -208,8 +208,8 @@ template <AnyWorld W>
     return count;
 }
 
-/// Remarks about a scene in which something moves. They are necessary because one
-/// photon map holds the light of all times.
+/// Remarks about a scene in which something moves, because one photon map holds the
+/// light of all times.
 /// \param caustics  Whether a caustics map is looked up.
 /// \param gathered  Whether indirect rays end at a lookup of the general map.
 template <AnyWorld W>
@@ -239,8 +239,7 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
     return remarks;
 }
 
-/// A remark about objects that lose light at their edges, as edge_loss() has found.
-/// \return A line with a line feed; empty if little is lost.
+/// A line, with a line feed, about the result of edge_loss(); empty if little is lost.
 [[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
     if (!(lost > 0.2)) return {};
     return join(
@@ -411,7 +410,7 @@ template <AnyWorld W>
 [[nodiscard, gnu::cold]] double share_of_sky([[maybe_unused]] const W& world) {
     using T = typename W::Scalar;
     int seen = 0;
-    if constexpr (W::any_light([]<typename L>() { return FillsSky<L>; })) {
+    if constexpr (has_sky<W>) {
         bool sky = false;
         for (std::uint32_t i = 0; i < world.light_count(); ++i)
             sky = sky || world.visit_light(
@@ -432,8 +431,7 @@ template <AnyWorld W>
 
 } // namespace detail
 
-/// The warnings of a survey about a scene.
-/// \return Sentences without a full stop.
+/// The warnings of a survey about a scene, as sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string>
 scene_remarks(const W& world, const PhotonMappingSettings& settings) {
@@ -471,12 +469,9 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
     return remarks;
 }
 
-/// The warnings about the position of a camera. The scene may have no objects, or the
-/// camera may be so near to a surface that rounding decides on which side of the
+/// The warnings about the position of a camera: that the scene has no objects, or that
+/// the camera is so near to a surface that rounding decides on which side of the
 /// surface it is.
-/// \param world     The closed scene.
-/// \param position  The position of the camera, or of the middle of its lens.
-/// \return The warnings, as those of scene_remarks().
 /// \cost Six rays.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard, gnu::cold]] std::vector<std::string>
@@ -498,9 +493,8 @@ camera_remarks(const W& world, const Vec3T<T>& position) {
     return {};
 }
 
-/// The warnings about a photon mapper: those of scene_remarks(), then those about its
-/// photon passes.
-/// \return The warnings, one per line, each with a line feed.
+/// The warnings about a photon mapper, each with a line feed: those of scene_remarks(),
+/// then those about its photon passes.
 template <typename Mapper>
 [[nodiscard, gnu::cold]] std::string mapper_remarks(const Mapper& mapper) {
     std::string lines;
@@ -523,29 +517,19 @@ template <typename Mapper>
 
 /// The remarks for path tracing: those of scene_remarks(), and one about light that no
 /// path carries. A path may meet a lamp or the sky, but never a light without a size.
-/// \return Sentences without a full stop.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::vector<std::string> path_remarks(const W& world) {
     // Paths sample narrow lobes themselves, as with DirectLight::mis.
     auto remarks = scene_remarks(world, {.direct = DirectLight::mis});
-    const auto is_met = []<typename L>(const L& light) {
-        using T = typename L::Scalar;
-        if constexpr (requires { emission_point(light, Vec2T<T>{T(0)}, T(0)); })
-            return !std::same_as<decltype(emission_point(light, Vec2T<T>{T(0)}, T(0))),
-                                 Vec3T<T>>;
-        else
-            return FillsSky<L>;
-    };
     long long never_met = 0;
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
-        never_met += world.visit_light(i, is_met) ? 0 : 1;
+        never_met += world.can_be_met(i) ? 0 : 1;
     const SceneNeeds found = needs(world);
     if (never_met > 0 && found.specular > 0 && found.diffuse > 0)
         remarks.push_back(detail::join(
             {to_text(never_met),
              " light(s) have no size, so that no path meets them: what mirrors and "
-             "glass "
-             "make of their light is missing; photon mapping carries it"}));
+             "glass make of their light is missing; photon mapping carries it"}));
     return remarks;
 }
 

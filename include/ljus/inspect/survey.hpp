@@ -33,8 +33,7 @@ struct Plan {
     PlanItem volume_map;      ///< Photons where fog scatters them.
     PlanItem shadow_photons;  ///< Shadow photons in the general map.
     PlanItem skipped_rays;    ///< Shadow rays that photons make unnecessary.
-    PlanItem skipped_bounces; ///< Indirect rays that are left out where no indirect
-                              ///< photon is near.
+    PlanItem skipped_bounces; ///< Indirect rays that photons make unnecessary.
     PlanItem irradiance;      ///< Irradiance points, which gather rays look up.
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Thin surfaces, through which paths pass.
@@ -52,16 +51,15 @@ struct Plan {
     std::array<const PlanItem*, 12> items() const&& = delete;
 };
 
-/// One pass of a plan as text: its name, on or off, and the reason.
-/// \return A line that ends with a line feed.
+/// One pass of a plan as a line of text with a line feed: its name, on or off, and the
+/// reason.
 [[nodiscard]] inline std::string to_text(const PlanItem& item) {
     std::string name = item.pass;
     name.resize(17, ' ');
     return name + (item.on ? "on   " : "off  ") + item.why + "\n";
 }
 
-/// A plan as text: one line per pass, then the remarks.
-/// \return Lines that end with a line feed.
+/// A plan as lines of text with line feeds: one per pass, then the remarks.
 [[nodiscard]] inline std::string to_text(const Plan& plan) {
     std::string text;
     for (const PlanItem* item : plan.items()) text += to_text(*item);
@@ -72,9 +70,8 @@ struct Plan {
 
 namespace detail {
 
-/// The words of a plan for the choices about caustics: how photons are distributed, and
-/// whether the radius is chosen from the photons.
-/// \return The end of a clause; empty if nothing is chosen.
+/// The end of a clause about the caustics map: how photons are distributed, and whether
+/// the radius is chosen from the photons.
 [[nodiscard]] inline std::string
 caustics_clause(const PhotonMappingSettings& settings) {
     const char* const radius = settings.caustics_estimate.radius == 0
@@ -110,7 +107,6 @@ inline std::string of_all(const SceneNeeds& found, std::size_t count,
            " objects " + what;
 }
 
-// The reasons for shadow rays and indirect rays.
 inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                       const PhotonMappingSettings& settings) {
     plan.shadow_rays = {
@@ -126,7 +122,6 @@ inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                                   : "nothing is lit"};
 }
 
-// The reasons for the photon passes.
 inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                          const PhotonMappingSettings& settings) {
     const auto casters = [&] {
@@ -164,7 +159,6 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
                                                 : "no map keeps them"};
 }
 
-// The reasons for leaving out rays.
 inline void plan_skipping(Plan& plan, const Passes& run,
                           const PhotonMappingSettings& settings) {
     const std::string photons = std::to_string(settings.general.photons) + " photons";
@@ -259,29 +253,25 @@ template <AnyWorld W>
     return plan;
 }
 
-/// Reports which hooks the types of a scene have.
-/// \param world  The closed scene; only its type is used.
-/// \return One line per type of shape, material and light that the scene lists, in
-///         their order. A line has the name of the type, the hooks that it has, and
-///         what happens without the other hooks. A misspelt hook counts as missing.
+/// Reports which hooks the types of a scene have; only the type of the world is used.
+/// \return One line per type of shape, material and light that the scene lists: the
+///         name of the type, the hooks that it has, and what happens without the other
+///         hooks. A misspelt hook counts as missing.
 template <AnyWorld W>
 [[nodiscard]] std::vector<std::string> survey_hooks([[maybe_unused]] const W& world) {
     std::vector<std::string> lines;
-    // Returning false continues with the next type.
+    const auto add = [&](const std::string& type, const auto& hooks) {
+        lines.push_back(type + " " + detail::to_line(hooks));
+        return false; // continues with the next type
+    };
     (void)W::any_shape([&]<typename G>() {
-        lines.push_back("shape " + detail::type_name<G>() + " " +
-                        detail::to_line(detail::shape_hooks<G>()));
-        return false;
+        return add("shape " + detail::type_name<G>(), detail::shape_hooks<G>());
     });
     (void)W::any_material([&]<typename M>() {
-        lines.push_back("material " + detail::type_name<M>() + " " +
-                        detail::to_line(detail::material_hooks<M>()));
-        return false;
+        return add("material " + detail::type_name<M>(), detail::material_hooks<M>());
     });
     (void)W::any_light([&]<typename L>() {
-        lines.push_back("light " + detail::type_name<L>() + " " +
-                        detail::to_line(detail::light_hooks<L>()));
-        return false;
+        return add("light " + detail::type_name<L>(), detail::light_hooks<L>());
     });
     return lines;
 }

@@ -33,16 +33,14 @@ enum class DirectLight : std::uint8_t {
 
 namespace detail {
 
-/// A lamp whose form factor at a vertex is known.
+/// A lamp as seen from a vertex, on the side of `wo`.
 template <std::floating_point T>
 struct SeenLampT {
-    /// The form factor of the lamp, as seen from the vertex on the side of `wo`.
     T form_factor = T(0);
     RgbT<T> radiance{T(0)}; ///< The lamp's radiance in W/(m^2 sr).
 };
 
-/// The form factor and the radiance of a light at a vertex.
-/// \return Nothing if the light has no form_factor().
+/// Nothing if the form factor of the light is not known.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
                                                     const VertexT<T>& vertex) {
@@ -57,12 +55,22 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// The radiance that a Lambertian surface reflects from a lamp if nothing occludes the
-/// lamp, in W/(m^2 sr).
+/// The radiance that a Lambertian surface reflects from an unoccluded lamp, in
+/// W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> unoccluded(const SeenLampT<T>& lamp,
                                  const LambertianT<T>& material) noexcept {
     return lamp.form_factor * material.albedo * lamp.radiance;
+}
+
+/// `all` times arrived / sent, per channel; 0 where nothing was sent.
+template <std::floating_point T>
+[[nodiscard]] RgbT<T> visible_part(const RgbT<T>& all, const RgbT<T>& arrived,
+                                   const RgbT<T>& sent) noexcept {
+    RgbT<T> result{T(0)};
+    for (int c = 0; c < 3; ++c)
+        if (sent[c] > T(0)) result[c] = all[c] * (arrived[c] / sent[c]);
+    return result;
 }
 
 /// The radiance that a Lambertian surface reflects from one lamp: the unoccluded light
@@ -75,11 +83,8 @@ template <std::floating_point T>
 /// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
 /// of two random sums has a bias; it is of the order of the variance of f_i over the
 /// number of rays.
-/// \param lamp    From seen_lamp().
-/// \param rays    Number of shadow rays, at least 1.
-/// \param place   place(i, cells) returns a point of the unit square, in the i-th
-///                cell.
-/// \param counts  Counts the rays.
+/// \param rays   Number of shadow rays, at least 1.
+/// \param place  place(i, cells) returns a point of the unit square, in the i-th cell.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \cite heitz2018shadows
 template <AnyWorld W, std::floating_point T, typename Place>
@@ -87,9 +92,8 @@ template <AnyWorld W, std::floating_point T, typename Place>
 analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
                const VertexT<T>& vertex, const LambertianT<T>& material, int rays,
                const Place& place, Counts& counts, Verdict verdict) {
-    RgbT<T> arrived{T(0)}, sent{T(0)}, result{T(0)};
-    if (!(lamp.form_factor > T(0))) return result;
-    const RgbT<T> all = unoccluded(lamp, material);
+    RgbT<T> arrived{T(0)}, sent{T(0)};
+    if (!(lamp.form_factor > T(0))) return sent;
     const Strata cells = strata_for(rays);
     for (int i = 0; i < rays; ++i) {
         const LightShareT<T> share = light_share(world, light, vertex, material,
@@ -97,9 +101,7 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
         arrived += share.arrived;
         sent += share.sent;
     }
-    for (int c = 0; c < 3; ++c)
-        if (sent[c] > T(0)) result[c] = all[c] * (arrived[c] / sent[c]);
-    return result;
+    return visible_part(unoccluded(lamp, material), arrived, sent);
 }
 
 /// The emission of a lamp or of the sky that a scattered ray meets, with the weight of
@@ -132,10 +134,9 @@ template <AnyWorld W, std::floating_point T>
 }
 
 /// Traces an extra ray, sampled by the material, and returns the result of met_light()
-/// for this ray. The ray carries no other light.
+/// for this ray: radiance towards `wo`, in W/(m^2 sr). The ray carries no other light.
 /// \param rays     Number of shadow rays per light.
 /// \param context  Three numbers are drawn; the ray is counted as a shadow ray.
-/// \return Radiance towards `wo`, in W/(m^2 sr).
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> found_light(const W& world, const VertexT<T>& vertex,
                                   const M& material, int rays, Context& context) {
@@ -145,9 +146,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     PathStateT<T> path{
         .ray = spawn_ray(vertex.point, next->wi, vertex.time),
         .throughput = next->sample.weight,
-        .medium =
-            detail::medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
-        .medium_known = !detail::leaves_body<M>(vertex.wo, next->sample.wi),
+        .medium = medium_beyond(vertex.medium, material, vertex.wo, next->sample.wi),
+        .medium_known = !leaves_body<M>(vertex.wo, next->sample.wi),
         .previous = vertex.point.position,
         .depth = 1,
         .branch = std::uint64_t(1) << 44};
@@ -156,7 +156,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
     const auto lamp = next_vertex(world, path, numbers);
     T reaching = next->sample.pdf;
     if constexpr (W::lists_fog) {
-        path.ray.t_max = lamp ? lamp->distance : path.ray.t_max;
+        if (lamp) path.ray.t_max = lamp->distance;
         const RgbT<T> through = fog_transmittance(world, path.ray);
         path.throughput *= through;
         reaching *= passing(through);
@@ -179,7 +179,7 @@ template <std::floating_point T>
 /// would get less than one ray is *faint*. The faint lamps share some rays. These go to
 /// lamps that are chosen in proportion to their unoccluded light. The light of all
 /// faint lamps is their unoccluded light, times the fraction of it that these rays find
-/// visible; the bias is that of analytic_light().
+/// visible, with the bias of analytic_light().
 template <std::floating_point T>
 class SharedRaysT {
 public:
@@ -205,19 +205,16 @@ public:
             scale_ = std::ceil(T(2 * rays) * (faint / sent_by_all_)) / faint;
     }
 
-    /// The result of seen_lamp() for a light. Nothing if the light has no closed form
-    /// or is known to be occluded.
+    /// The result of seen_lamp(); nothing for a light that is known to be occluded.
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
-    /// Whether a lamp is faint.
-    /// \param by_it  The result of sent_by() for the lamp.
+    /// Whether a lamp is faint, by the result of its sent_by().
     [[nodiscard]] bool is_faint(T by_it) const noexcept {
         return mean_rays(by_it) < T(1);
     }
-    /// The number of rays to the next lamp. The calls must follow the order of the
-    /// lights.
-    /// \param by_it  The result of sent_by() for the lamp.
+    /// The number of rays to the next lamp, by the result of its sent_by(). The calls
+    /// must follow the order of the lights.
     [[nodiscard]] int rays_to(T by_it) noexcept {
         if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
@@ -225,11 +222,8 @@ public:
         next_ -= whole;
         return int(whole);
     }
-    /// Adds the light of a faint lamp.
-    /// \param all      The unoccluded light of the lamp.
-    /// \param arrived  The result of analytic_light(); ignored if `rays` is 0.
-    /// \param rays     The number of rays to the lamp.
-    /// \param by_it    The result of sent_by() for the lamp.
+    /// Adds the light of a faint lamp: its unoccluded light, the result of
+    /// analytic_light(), the number of rays to the lamp, and the result of sent_by().
     void add(const RgbT<T>& all, const RgbT<T>& arrived, int rays, T by_it) noexcept {
         all_ += all;
         if (rays == 0) return;
@@ -239,10 +233,7 @@ public:
     }
     /// The light of all faint lamps.
     [[nodiscard]] RgbT<T> light() const noexcept {
-        RgbT<T> result{T(0)};
-        for (int c = 0; c < 3; ++c)
-            if (sent_[c] > T(0)) result[c] = all_[c] * (arrived_[c] / sent_[c]);
-        return result;
+        return visible_part(all_, arrived_, sent_);
     }
 
 private:
@@ -259,17 +250,13 @@ private:
 
 /// Verdicts for a vertex at which the visibility of every light is unknown.
 struct NoVerdicts {
-    /// Verdict::unknown for every light.
     constexpr Verdict operator()(std::size_t) const noexcept {
         return Verdict::unknown;
     }
 };
 
-/// The point of the unit square for the i-th ray to a light.
-/// \param i        The number of the ray.
-/// \param cells    The cells of the unit square, one for each ray.
-/// \param u        Position within a cell; the same for all rays of a vertex.
-/// \param context  Its stream gives a key for random numbers.
+/// The point of the unit square for the i-th ray to a light, in a cell of its own at
+/// the position `u`, which is the same for all rays of a vertex.
 template <std::floating_point T, typename Context>
 [[nodiscard]] Vec2T<T> place_of_ray(int i, const Strata& cells, const Vec2T<T>& u,
                                     const Context& context) noexcept {
@@ -277,12 +264,8 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the radiance from one light: the mean of several shadow rays.
-/// \param sum      The sum of radiance towards `wo`.
-/// \param u        Position within each cell of the light.
-/// \param rays     Number of rays, at least 1.
-/// \param mis      How light is divided between these rays and a scattered ray.
-/// \param context  Its counters count the rays.
+/// Adds the radiance towards `wo` from one light: the mean of at least 1 shadow ray.
+/// \param u  Position within each cell of the light.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void
 add_sampled_light(RgbT<T>& sum, const W& world, std::uint32_t light,
@@ -360,18 +343,12 @@ struct DirectLightSettings {
     Lobes next = Lobes::none;
 };
 
-/// The radiance that a surface reflects from all lights.
-/// \param world     The closed scene.
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param settings  Method and number of rays. n rays divide each light into n cells,
-///                  and one ray goes to each cell.
-/// \param context   Two numbers are drawn for each light, except for a lamp that is too
-///                  faint to get a ray. One more may be drawn for
-///                  DirectLight::analytic, and three more for an extra ray. Rays are
-///                  counted. For a light with Verdict::shadow, n skipped rays are
-///                  counted.
-/// \param verdicts  Called with a light's index; returns its known visibility.
+/// The radiance that a surface reflects from all lights. n rays divide each light into
+/// n cells, and one ray goes to each cell. Two numbers are drawn for each light, except
+/// for a lamp that is too faint to get a ray. One more may be drawn for
+/// DirectLight::analytic, and three more for an extra ray. `verdicts` is called with a
+/// light's index and returns its known visibility. For a light with Verdict::shadow, n
+/// skipped rays are counted.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T, Material M, typename Context,

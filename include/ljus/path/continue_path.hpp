@@ -14,8 +14,8 @@ namespace ljus {
 ///
 /// A surface may have two normals, for example a triangle with interpolated normals
 /// \cite veach1997. The geometric normal decides on which side of the surface a
-/// direction lies. The shading normal is the z axis of the material's frame. The table
-/// gives the rule for a direction about whose side the two normals disagree:
+/// direction lies. The shading normal is the z axis of the material's frame. Where the
+/// two normals disagree about the side of a direction:
 ///
 /// | direction                         | rule                                         |
 /// |-----------------------------------|----------------------------------------------|
@@ -42,11 +42,7 @@ struct ScatteredT {
 /// \f$\omega_o\f$ the direction back along the path of the photon, and \f$\omega_i\f$
 /// the sampled direction. With this factor, photons and camera paths find the same
 /// light.
-/// \param vertex     The surface.
-/// \param material   The material at the vertex; see visit_material_at().
-/// \param u          Point of [0,1)^3.
-/// \param transport  The quantity that the path carries.
-/// \param which      The lobes to sample.
+/// The material is that of visit_material_at(), and u a point of [0,1)^3.
 /// \return The direction; nothing if the path ends.
 /// \cite veach1997
 // [scatter]
@@ -80,12 +76,10 @@ scatter(const VertexT<T>& vertex, const M& material, const Vec3T<T>& u,
 
 namespace detail {
 
-/// The absorption coefficient on the side of `wi` of a surface. If `wi` and `wo` lie on
-/// the same side, it is `medium`. Otherwise it is that of the material if `wi` points
-/// into the body, and 0 if `wi` points out of the body.
-/// \param medium    Absorption coefficient on the side of `wo`, per scene unit.
-/// \param wo, wi    Unit vectors in the frame of the surface.
-/// \return Per scene unit.
+/// The absorption coefficient on the side of `wi` of a surface, per scene unit; 0 where
+/// a path leaves a body.
+/// \param medium  The absorption coefficient on the side of `wo`.
+/// \param wo, wi  Unit vectors in the frame of the surface.
 template <typename M, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_beyond(const RgbT<T>& medium, const M& material,
                                     const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
@@ -100,9 +94,7 @@ template <typename M, std::floating_point T>
     return MayAbsorb<M> && wo.z < T(0) && wi.z > T(0);
 }
 
-/// Continues a path in a sampled direction.
-/// \param path  The path; receives the new ray, throughput and medium.
-/// \param wi    The sampled direction in the world.
+/// Continues a path in a sampled direction, which is `wi` in the world.
 template <std::floating_point T, Material M>
 void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
             const BsdfSampleT<T>& next, const Vec3T<T>& wi) noexcept {
@@ -122,13 +114,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 
 } // namespace detail
 
-/// Continues a path in a direction that the material samples.
-/// \param path       The path; receives the new ray, throughput and medium.
-/// \param vertex     The vertex.
-/// \param material   The material at the vertex.
-/// \param transport  Whether the path carries radiance or flux.
-/// \param which      The lobes to sample.
-/// \param stream     Three numbers are drawn.
+/// Continues a path in a direction that the material samples. Three numbers are drawn
+/// if the material has the lobes `which`.
 /// \return False if the path ends here. The path is then unchanged.
 /// \report{Section 3.2.4}
 template <std::floating_point T, Material M, StreamLike Stream>
@@ -151,11 +138,9 @@ template <std::floating_point T, Material M, StreamLike Stream>
 
 /// Splits a camera path at a boundary: the path is reflected, and a copy of it is
 /// refracted.
-/// \param path      The path; receives the reflected ray.
-/// \param vertex    The vertex.
-/// \param material  The material at the vertex.
 /// \return The copy, with its own random numbers. Nothing if the material does not
-///         split paths or if only one direction exists; then the path is unchanged.
+///         split paths, if only one direction exists, or if VertexT::smooth is set;
+///         then the path is unchanged.
 /// \report{Section 3.2.5}
 template <std::floating_point T, Material M>
 [[nodiscard]] std::optional<PathStateT<T>>
@@ -165,8 +150,7 @@ split_path(PathStateT<T>& path, const VertexT<T>& vertex, const M& material) {
         if (!both || vertex.smooth) return std::nullopt;
         const auto& [reflected, refracted] = *both;
         PathStateT<T> other = path;
-        // A path splits at most once per depth. One bit per depth identifies the
-        // branch.
+        // A path splits at most once per depth: one bit per depth names the branch.
         other.branch += std::uint64_t(1) << (16 + path.depth % 32);
         detail::follow(other, vertex, material, refracted,
                        to_world(vertex.frame, refracted.wi));

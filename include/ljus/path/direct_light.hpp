@@ -28,11 +28,8 @@ enum class MisHeuristic : std::uint8_t {
     shadow_rays ///< Weight 1 for the shadow ray: next-event estimation alone.
 };
 
-/// The balance heuristic: the weight of a sample that two strategies could have made
-/// \cite veach1997.
-/// \param pdf    The density of the strategy that made the sample.
-/// \param other  The density of the other strategy.
-/// \return pdf/(pdf + other), in [0, 1].
+/// The balance heuristic, pdf/(pdf + other): the weight of a sample that two strategies
+/// could have made. `pdf` is the density of the strategy that made it \cite veach1997.
 // [heuristics]
 template <std::floating_point T>
 [[nodiscard]] constexpr T balance_heuristic(T pdf, T other) noexcept {
@@ -53,10 +50,6 @@ template <std::floating_point T>
 
 /// The weight of a sample by MisHeuristic::power or, for any other value, by
 /// MisHeuristic::balance.
-/// \param heuristic  The heuristic.
-/// \param pdf        The density of the strategy that made the sample.
-/// \param other      The density of the other strategy.
-/// \return In [0, 1].
 template <std::floating_point T>
 [[nodiscard]] constexpr T mis_weight(MisHeuristic heuristic, T pdf, T other) noexcept {
     return heuristic == MisHeuristic::power ? power_heuristic(pdf, other)
@@ -74,10 +67,8 @@ struct MisT {
     Lobes lobes = Lobes::all; ///< The lobes that the scattered ray samples.
 };
 
-/// The density, per steradian, with which a shadow ray would choose a point of a lamp.
-/// \param world  The closed scene.
-/// \param from   The lit point, from which the shadow ray would start.
-/// \param lamp   The vertex of a path that hit the lamp.
+/// The density, per steradian, with which a shadow ray from the lit point `from` would
+/// choose the point where a path hit a lamp.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] T pdf_of_lamp_point(const W& world, const Vec3T<T>& from,
                                   const VertexT<T>& lamp) {
@@ -99,17 +90,13 @@ struct SkyT {
 
 namespace detail {
 
-/// Whether a type of world lists a light that fills the sky.
 template <AnyWorld W>
 inline constexpr bool has_sky = W::any_light([]<typename L>() { return FillsSky<L>; });
 
 } // namespace detail
 
-/// One light as seen by a ray that leaves the scene.
-/// \param world      The closed scene.
-/// \param light      The index of the light.
-/// \param direction  Unit direction of the ray.
-/// \return Radiance and density; both are 0 for a light that does not fill the sky.
+/// One light as seen by a ray that leaves the scene in a unit direction. Radiance and
+/// density are 0 for a light that does not fill the sky.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] SkyT<T> sky_of(const W& world, std::uint32_t light,
                              const Vec3T<T>& direction) {
@@ -121,10 +108,8 @@ template <AnyWorld W, std::floating_point T>
     });
 }
 
-/// The radiance of the sky: the sum over all lights that fill the sky.
-/// \param world      The closed scene.
-/// \param direction  Unit direction of a ray that leaves the scene.
-/// \return W/(m^2 sr).
+/// The radiance of the sky in a unit direction, in W/(m^2 sr): the sum over all lights
+/// that fill the sky.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> sky_radiance(const W& world, const Vec3T<T>& direction) {
     RgbT<T> sum{T(0)};
@@ -136,9 +121,9 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// The mean of the channels of the transmittance of fog. This mean approximates the
-/// probability that fog lets a scattered ray pass. For the weights of multiple
-/// importance sampling, the density of a scattered ray is multiplied by this mean.
+/// The mean of the channels of the transmittance of fog. For the weights of multiple
+/// importance sampling, the density of a scattered ray is multiplied by this mean,
+/// which approximates the probability that fog lets the ray pass.
 template <std::floating_point T>
 [[nodiscard]] T passing(const RgbT<T>& transmittance) noexcept {
     return (transmittance.x + transmittance.y + transmittance.z) / T(3);
@@ -200,15 +185,8 @@ template <AnyWorld W, std::floating_point T, Material M>
 /// The radiance that a surface reflects from one light, by one shadow ray:
 /// \f$ f\,|\cos\theta|\,L_e\,V / p \f$. Here f is the BSDF, theta the angle of the ray
 /// to the normal, L_e the emitted radiance, V the visibility, and p the density of the
-/// ray per steradian.
-/// \param world     The closed scene.
-/// \param light     The index of the light.
-/// \param vertex    The surface.
-/// \param material  The material of the surface.
-/// \param u         Point of the unit square; chooses the point of the light.
-/// \param mis       How the light is divided between this ray and a scattered ray.
-/// \param counts    Counts the ray. No ray is cast if the surface cannot reflect it.
-/// \param verdict   The known visibility. With Verdict::lit no ray is cast.
+/// ray per steradian. The point `u` of the unit square chooses the point of the light.
+/// No ray is cast if the surface cannot reflect it, or for Verdict::lit.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number. A
@@ -223,13 +201,7 @@ template <AnyWorld W, std::floating_point T, Material M>
 }
 
 /// The direct light at a vertex of a path, by one shadow ray to one light. The light is
-/// chosen in proportion to its power.
-/// \param world      The closed scene, with at least one light.
-/// \param path       The path.
-/// \param vertex     The surface.
-/// \param material   The material of the surface.
-/// \param heuristic  The weights of multiple importance sampling.
-/// \param context    Three numbers are drawn; the ray is counted.
+/// chosen in proportion to its power; the scene must have one. Three numbers are drawn.
 /// \return Throughput times radiance times the weight.
 /// \report{Section 3.2.3}
 // [sampled]

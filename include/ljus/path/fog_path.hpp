@@ -58,11 +58,8 @@ enum class FogLight : std::uint8_t {
     equi_angular
 };
 
-/// Calls f(medium) with one medium of a scene.
-/// \param world   The closed scene.
-/// \param number  The number of the medium. Media are counted type by type, in the
-///                order in which the scene lists the types.
-/// \param f       Called once if there is such a medium, otherwise not.
+/// Calls f(medium) with the medium of a number, if there is such a medium. Media are
+/// counted type by type, in the order in which the scene lists the types.
 template <AnyWorld W, typename F>
 void visit_fog(const W& world, std::uint32_t number, F&& f) {
     const auto visit = [&](const auto& list) {
@@ -70,20 +67,6 @@ void visit_fog(const W& world, std::uint32_t number, F&& f) {
         number -= static_cast<std::uint32_t>(list.size()); // wraps after f was called
     };
     detail::each_array(world.media(), visit);
-}
-
-/// Calls f(number, medium, span) for each medium that a ray crosses. The span is the
-/// interval of t in which the ray is inside the medium.
-template <AnyWorld W, std::floating_point T, typename F>
-void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
-    std::uint32_t number = 0;
-    const auto ask = [&](const auto& list) {
-        for (const auto& medium : list) {
-            if (const auto span = span_in(medium, ray)) f(number, medium, *span);
-            ++number;
-        }
-    };
-    detail::each_array(world.media(), ask);
 }
 
 namespace detail {
@@ -97,7 +80,7 @@ template <std::floating_point T>
     return throughput / (throughput.x + throughput.y + throughput.z);
 }
 
-/// The point of a segment at a distance from its start, as a vertex in a given medium.
+/// The point of a segment at a distance from its start, as a vertex in a medium.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] FogVertexT<T> fog_vertex(const W& world, const FogSegmentT<T>& segment,
                                        std::uint32_t medium, T distance) {
@@ -111,8 +94,8 @@ template <AnyWorld W, std::floating_point T>
             .time = segment.ray.time};
 }
 
-/// The density with which fly() scatters a path at a vertex, per scene unit.
-/// \param extinction  Extinction coefficient of the vertex's medium, per scene unit.
+/// The density with which fly() scatters a path at a vertex, per scene unit. The
+/// extinction coefficient is that of the vertex's medium.
 template <std::floating_point T>
 [[nodiscard]] T pdf_flight(const FogSegmentT<T>& segment, const FogVertexT<T>& vertex,
                            const RgbT<T>& extinction) noexcept {
@@ -131,12 +114,11 @@ template <std::floating_point T>
 /// is divided by the mean density of all channels, which is the balance heuristic
 /// \cite wilkie2014. If several media lie on the segment, a flight is sampled for each,
 /// and the shortest counts.
-/// \param world    The closed scene.
-/// \param segment  The segment, outside all bodies.
-/// \param path     The path at the end of the segment. Its throughput is multiplied by
-///                 the weight of the flight. If the path reaches the surface, its pdf
-///                 is multiplied by the mean transmittance.
-/// \param stream   One number is drawn, and one for each medium on the segment.
+///
+/// The segment must lie outside all bodies, and the path be at its end. The path's
+/// throughput is multiplied by the weight of the flight. If the path reaches the
+/// surface, its pdf is multiplied by the mean transmittance. One number is drawn, and
+/// one for each medium on the segment.
 /// \return The vertex where fog scatters the path; nothing if the path reaches the
 ///         surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -170,17 +152,10 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     // [fly]
 }
 
-/// Casts a shadow ray from a point in fog to a light, and returns the light that fog
-/// scatters back along the path.
-/// \param world   The closed scene.
-/// \param light   The index of the light.
-/// \param vertex  The point in fog.
-/// \param medium  The medium of the vertex.
-/// \param u       Point of the unit square; chooses the point of the light.
-/// \param mis     How light is divided between this ray and a scattered ray.
-/// \param counts  Counts the ray.
-/// \return The radiance that goes back along the path, divided by the scattering
-///         coefficient.
+/// Casts a shadow ray from a point in fog to a light. The point `u` of the unit square
+/// chooses the point of the light.
+/// \return The radiance that fog scatters back along the path, divided by the
+///         scattering coefficient.
 template <AnyWorld W, std::floating_point T, Medium M>
 [[nodiscard]] RgbT<T> fog_light(const W& world, std::uint32_t light,
                                 const FogVertexT<T>& vertex, const M& medium,
@@ -244,14 +219,8 @@ template <Medium M, std::floating_point T>
 
 /// Estimates the light that fog scatters back along a path at a vertex from fly(). One
 /// light is chosen in proportion to its power, and one shadow ray is cast towards it.
-/// \param world       The closed scene, with at least one light.
-/// \param segment     The segment.
-/// \param vertex      The vertex from fly().
-/// \param throughput  The throughput of the path after fly().
-/// \param heuristic   How light is divided between this ray and a scattered ray.
-/// \param how         How light is divided between this vertex and the points from
-///                    equi-angular sampling.
-/// \param context     Three numbers are drawn; the ray is counted.
+/// The scene must have a light. `throughput` is that of the path after fly(). Three
+/// numbers are drawn.
 /// \return Throughput times radiance times the weights.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> light_in_flight(const W& world, const FogSegmentT<T>& segment,
@@ -279,12 +248,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// proportion to its power, and one shadow ray is cast towards it. The ray starts at a
 /// point from equi-angular sampling, which favours points near the light
 /// \cite kulla2012.
-/// \param world      The closed scene, with at least one light.
-/// \param segment    The segment, outside all bodies.
-/// \param heuristic  How light is divided between this ray and a scattered ray.
-/// \param how        How light is divided between this point and the vertices from
-///                   fly().
-/// \param context    Five numbers are drawn; the ray is counted.
+/// The scene must have a light, and the segment must lie outside all bodies. Five
+/// numbers are drawn, except for FogLight::flight.
 /// \return Throughput times radiance times the weights; 0 for FogLight::flight.
 // [aimed light]
 template <AnyWorld W, std::floating_point T, typename Context>
@@ -314,11 +279,9 @@ template <AnyWorld W, std::floating_point T, typename Context>
 }
 // [aimed light]
 
-/// Continues a path from a point in fog, in a direction sampled by the phase function.
-/// \param path    The path; receives the new ray. The throughput does not change.
-/// \param vertex  The vertex from fly().
-/// \param medium  The medium of the vertex.
-/// \param stream  Two numbers are drawn.
+/// Continues a path from a vertex of fly(), in a direction sampled by the phase
+/// function of the vertex's medium. The throughput does not change. Two numbers are
+/// drawn.
 template <std::floating_point T, Medium M, StreamLike Stream>
 void scatter_in_fog(PathStateT<T>& path, const FogVertexT<T>& vertex, const M& medium,
                     Stream& stream) {

@@ -18,10 +18,10 @@ namespace ljus {
 /// \brief Regular expressions for sets of light paths. Chapter:
 /// \ref ch_light_transport.
 ///
-/// A path is written as a word: E is the eye, D a diffuse or glossy surface, S a mirror
-/// or a boundary of glass, and L the light. A class of paths is a regular expression
-/// over these letters. It begins at the eye and ends at the light; Heckbert
-/// \cite heckbert1990 writes the letters in the opposite order.
+/// In a word for a path, E is the eye, D a diffuse or glossy surface, S a mirror or a
+/// boundary of glass, and L the light. A class of paths is a regular expression over
+/// these letters. It begins at the eye; Heckbert \cite heckbert1990 begins at the
+/// light.
 /// \{
 
 /// A compiled class of paths: Glushkov's automaton. State 0 is the start. Each letter
@@ -32,9 +32,7 @@ struct LightPathExpression {
     std::array<char, 64> letter{}; ///< Letter of each state: E, D, S, L or '.'.
     std::uint64_t last = 0;        ///< The set of accepting states.
 
-    /// The set of possible states after one more letter of a path.
-    /// \param states  The set of possible states so far.
-    /// \param next    The next letter: E, D, S or L.
+    /// The set of possible states after one more letter of a path, E, D, S or L.
     /// \return Empty if no path of the class begins with these letters.
     [[nodiscard]] constexpr std::uint64_t step(std::uint64_t states,
                                                char next) const noexcept {
@@ -130,10 +128,8 @@ struct LightPathExpressionReader {
 
 } // namespace detail
 
-/// Compiles a class of paths.
-/// \param expression  For example "ES*D?L". It consists of at most 63 letters E, D, S,
-///                    L and '.', which stands for D or S, and of the usual operators
-///                    `| ( ) * + ?`.
+/// Compiles a class of paths, such as "ES*D?L": at most 63 letters E, D, S, L and '.',
+/// which stands for D or S, with the usual operators `| ( ) * + ?`.
 /// \throws std::invalid_argument  for an invalid expression, with the position of the
 ///         error.
 [[nodiscard]] constexpr LightPathExpression

@@ -19,9 +19,6 @@ namespace ljus {
 /// \{
 
 /// The factor g of Eq. 1 for two points on surfaces: visibility over squared distance.
-/// \param world  The closed scene.
-/// \param x      One point.
-/// \param other  The other point. Exchanging both gives the same result.
 /// \return 1/r^2 for points at a distance r, per squared scene unit. 0 if any surface,
 ///         even of glass, lies between the points, or if the points coincide.
 /// \report{Eq. (1)}
@@ -43,7 +40,7 @@ namespace detail {
 template <std::floating_point T>
 struct ExpressionLog {
     const LightPathExpression& wanted; ///< The class.
-    RgbT<T> sum{T(0)};        ///< Sum of the terms, each multiplied by its throughput.
+    RgbT<T> sum{T(0)};        ///< Sum of the terms, which contain the throughput.
     std::uint64_t states = 0; ///< The automaton's states for the path so far.
 
     /// Starts a path at the eye.
@@ -82,8 +79,7 @@ struct ClassesLog {
     /// Where delay() writes the new size of `takers`.
     std::uint32_t* next_delayed = nullptr;
 
-    /// Makes a log.
-    /// \param classes  The classes of paths, at most 64; must outlive the log.
+    /// Makes a log for at most 64 classes of paths, which must outlive the log.
     explicit ClassesLog(std::span<const LightPathExpression> classes) {
         for (const LightPathExpression& wanted : classes) logs.push_back({wanted});
     }
@@ -97,8 +93,7 @@ struct ClassesLog {
               const RgbT<T>& value) noexcept {
         for (auto& log : logs) log.term(owner, letters, value);
     }
-    /// Records which classes a delayed term belongs to. There may be at most 64
-    /// classes.
+    /// Records which classes a delayed term belongs to.
     void delay(std::string_view letters) {
         std::uint64_t bits = 0;
         for (std::size_t k = 0; k < logs.size(); ++k)
@@ -121,9 +116,8 @@ class OnlyPaths {
 public:
     using Stream = typename R::Stream; ///< The random stream of the other renderer.
 
-    /// Makes the renderer.
-    /// \param whole    The renderer that traces the paths; must outlive this one.
-    /// \param carried  The class of paths, as for light_path_expression().
+    /// Carries the paths of another renderer, which must outlive this one, in a class
+    /// for light_path_expression().
     /// \throws std::invalid_argument  as light_path_expression().
     OnlyPaths(Ref<R> whole, std::string_view carried)
         : whole_(whole), carried_(light_path_expression(carried)) {}

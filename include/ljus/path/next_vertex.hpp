@@ -58,7 +58,6 @@ using Vertex = VertexT<float>; ///< VertexT in float.
 
 namespace detail {
 
-/// Whether a material uses texture coordinates.
 template <AnyWorld W>
 [[nodiscard]] bool uses_uv(const W& world, MaterialId material) {
     if constexpr (W::any_material([]<typename M>() { return UsesUv<M>; }))
@@ -69,10 +68,8 @@ template <AnyWorld W>
         return false;
 }
 
-/// Sets the shading frame of a vertex, and turns its normals if the object is inside
-/// out.
-/// \param vertex  The vertex; `point` and `object` must be set.
-/// \param normal  The shading normal of the shape.
+/// Sets the frame of a vertex around the shading normal of the shape, and turns both
+/// normals if the object is inside out. `point` and `object` must be set.
 // [set_frame]
 template <std::floating_point T>
 inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
@@ -91,7 +88,6 @@ inline void set_frame(VertexT<T>& vertex, const RayT<T>& ray, Vec3T<T> normal) {
 }
 // [set_frame]
 
-/// Whether a type of scene lists a material with a normal map.
 template <AnyWorld W>
 inline constexpr bool lists_normal_maps = W::any_material([]<typename M>() {
     return NormalMapped<M>;
@@ -102,9 +98,9 @@ inline constexpr bool lists_normal_maps = W::any_material([]<typename M>() {
 /// \param normal     The shading normal of the shape.
 /// \param geometric  The geometric normal, on the same side.
 /// \param tangents   texture_tangents() of the shape.
-/// \return A unit vector within 90 degrees of `geometric`. If the map is flat at this
-///         point or the shape has no tangents there, the result is `normal`. If the
-///         mapped normal would point to the other side, the result is `geometric`.
+/// \return A unit vector: `normal` if the map is flat at this point or the shape has no
+///         tangents there; `geometric` if the mapped normal is 90 degrees or more from
+///         it.
 // [mapped_normal]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> mapped_normal(const Vec3T<T>& local, const Vec3T<T>& normal,
@@ -141,8 +137,8 @@ template <AnyWorld W>
     });
 }
 
-/// Completes a vertex at which surfaces of several objects coincide. It sets the index
-/// of refraction on the outside. It enlarges the error of the point, so that a new ray
+/// Completes a vertex at which surfaces of several objects coincide. Sets the index of
+/// refraction on the outside, and enlarges the error of the point, so that a new ray
 /// starts beyond all of these surfaces.
 template <AnyWorld W, std::floating_point T>
 [[gnu::cold]] void set_contact(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
@@ -153,7 +149,6 @@ template <AnyWorld W, std::floating_point T>
         vertex.outside = index_of(world, place.left, vertex.wavelength);
 }
 
-/// Whether a type of scene lists a material that disperses light.
 template <AnyWorld W>
 inline constexpr bool lists_dispersive = W::any_material([]<typename M>() {
     return Dispersive<M>;
@@ -171,9 +166,6 @@ template <AnyWorld W>
 /// disperses light, on either side of the surface. Until then the path carries all
 /// wavelengths. The throughput is multiplied by the colour of the wavelength; the mean
 /// of these colours is white.
-/// \param path     The path; receives the wavelength and keeps it.
-/// \param vertex   A vertex from fill_vertex(); receives the wavelength.
-/// \param hit      The hit at the vertex.
 /// \param outside  The material of the body on the outside; no_body in air.
 /// \param stream   One number is drawn if a wavelength is chosen.
 // [disperse]
@@ -192,7 +184,7 @@ void disperse(const W& world, PathStateT<T>& path, VertexT<T>& vertex,
 // [disperse]
 
 /// Sets the frame of a vertex by the normal map of its material, if there is one.
-/// \param vertex  The vertex; `point`, `uv` and `object` must be set.
+/// `point`, `uv` and `object` must be set.
 /// \return Whether the material has a normal map.
 template <AnyWorld W, std::floating_point T, HasTangents G>
 [[nodiscard]] bool map_normal(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
@@ -213,10 +205,9 @@ template <AnyWorld W, std::floating_point T, HasTangents G>
     });
 }
 
-/// Computes vertex_at() in place, which saves a copy of 160 bytes per ray.
-/// \param vertex  A new vertex. All members except `medium`, `outside`, `wavelength`
-///                and `stop_probability` are set.
-/// \param ray     The ray that hit, with a unit direction.
+/// Sets all members of a new vertex except `medium`, `outside`, `wavelength` and
+/// `stop_probability`. Writing in place saves a copy of 168 bytes per ray. The ray must
+/// have a unit direction.
 template <AnyWorld W, std::floating_point T>
 inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
                         const SceneHitT<T>& hit) {
@@ -253,11 +244,11 @@ inline void fill_vertex(VertexT<T>& vertex, const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// The vertex at a hit. VertexT::medium is not set. The ray must have a unit direction.
+/// The vertex at a hit of a ray with a unit direction. VertexT::medium is not set.
 ///
-/// The geometric normal decides on which side of the surface the ray arrives. The frame
-/// is set around the shading normal or, if the two normals disagree about this side,
-/// around the geometric normal. The sign of wo.z therefore always gives the side.
+/// The frame is set around the shading normal or, if the two normals disagree about the
+/// side on which the ray arrives, around the geometric normal. The sign of wo.z
+/// therefore always gives the side.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] VertexT<T> vertex_at(const W& world, const RayT<T>& ray,
                                    const SceneHitT<T>& hit) {
@@ -302,9 +293,8 @@ template <AnyWorld W, std::floating_point T, Material M>
 
 namespace detail {
 
-/// Whether both normals of a vertex agree about the side of a direction.
-/// \param local  The direction in the frame of the vertex.
-/// \param world  The same direction in the world.
+/// Whether both normals of a vertex agree about the side of a direction, which is given
+/// in the frame of the vertex and in the world.
 template <std::floating_point T>
 [[nodiscard]] bool agrees(const VertexT<T>& vertex, const Vec3T<T>& local,
                           const Vec3T<T>& world) noexcept {
@@ -324,37 +314,26 @@ template <std::floating_point T>
 /// A thin surface, such as a soap film, reflects some light and transmits the rest
 /// without deflection. Transmission does not count as scattering: a transmitted path
 /// has no vertex at the surface, and keeps its letters in Heckbert's notation, its
-/// density and its depth. Reflection counts as specular scattering, S. The function
-/// visibility() multiplies the light of a shadow ray by the transmittances. The
-/// function next_vertex() chooses between transmission and reflection at random.
+/// density and its depth. Reflection counts as specular scattering, S. visibility()
+/// multiplies the light of a shadow ray by the transmittances. next_vertex() chooses
+/// between transmission and reflection at random.
 /// \{
-
-/// A material that transmits light without deflection: `pass_through(m, position, wo)`
-/// returns the transmittance. sample() of such a material returns reflection only.
-template <typename M>
-concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
-    { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
-};
 
 namespace detail {
 
-/// Whether a type of scene lists a thin surface among its materials.
 template <AnyWorld W>
 inline constexpr bool lists_thin_surfaces = W::any_material([]<typename M>() {
     return ThinSurface<M>;
 });
 
-/// Whether a type of scene lists a shape that moves.
 template <AnyWorld W>
 inline constexpr bool lists_moving = W::any_shape([]<typename G>() {
-    return detail::is_moving<G>;
+    return is_moving<G>;
 });
 
 /// Moves a vertex on a moving shape back to its position at time 0. Photons of all
 /// times are stored and looked up at this position. An estimate is therefore the mean
-/// irradiance over the time for which the shutter is open, even if a path sees the
-/// point at one time only.
-/// \return The vertex at time 0; on a shape at rest the vertex itself.
+/// irradiance over the time for which the shutter is open.
 // [at_rest]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] decltype(auto) at_rest(const W& world, const VertexT<T>& vertex) {
@@ -371,15 +350,13 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a material that is a thin surface. A type of thin surface in the
-/// list of materials is not enough.
+/// Whether a scene has, not only lists, a thin surface.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has a shape that moves. A type of moving shape in the list of shapes
-/// is not enough.
+/// Whether a scene has, not only lists, a shape that moves.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
@@ -400,10 +377,8 @@ template <AnyWorld W, StreamLike Stream>
 
 } // namespace detail
 
-/// Starts the path of a camera ray at a random time.
-/// \param world   The closed scene.
-/// \param ray     The camera ray.
-/// \param stream  One number is drawn if the scene has a moving shape.
+/// Starts the path of a camera ray at a random time. One number is drawn if the scene
+/// has a moving shape.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] PathStateT<T> camera_path(const W& world, const RayT<T>& ray,
                                         Stream& stream) {
@@ -419,17 +394,16 @@ template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> passed_through(const W& world,
                                                     const VertexT<T>& vertex) {
     return world.visit_material(
-        vertex.object.material, [&](const auto& m) -> std::optional<RgbT<T>> {
-            if constexpr (ThinSurface<std::remove_cvref_t<decltype(m)>>)
+        vertex.object.material, [&]<typename M>(const M& m) -> std::optional<RgbT<T>> {
+            if constexpr (ThinSurface<M>)
                 return pass_through(m, vertex.point.position, vertex.wo);
             else
                 return std::nullopt;
         });
 }
 
-/// The largest number of thin or hidden surfaces that a ray passes. A ray that meets
-/// more of them counts as blocked. A hidden surface lies inside a body of higher
-/// priority.
+/// A ray that meets more thin or hidden surfaces than this counts as blocked. A hidden
+/// surface lies inside a body of higher priority.
 inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces or with overlapping bodies.
@@ -464,11 +438,7 @@ template <AnyWorld W, std::floating_point T>
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray);
 
-/// The fraction of light that gets from one point to another.
-/// \param world  The closed scene.
-/// \param from   One point.
-/// \param to     The other point.
-/// \param time   Time of the path, in [0, 1].
+/// The fraction of light that gets from one point to another, at a time in [0, 1].
 /// \return For each channel: 0 if a surface occludes one point from the other,
 ///         otherwise the product of the transmittances of thin surfaces and of fog
 ///         between the points. A surface inside a body of higher priority does not
@@ -508,9 +478,9 @@ struct PassageT {
 };
 
 /// Traces a path through thin and hidden surfaces. A path stops at a thin surface, to
-/// be reflected, with a probability that is the mean reflectance of the channels.
-/// \param path    The path. Receives the last segment of its ray, and the bodies on
-///                both sides of the surface where the path stops.
+/// be reflected, with a probability of 1 minus the mean transmittance of the channels.
+/// \param path    Receives the last segment of its ray, and the bodies on both sides of
+///                the surface where the path stops.
 /// \param hit     The first hit of the ray; receives the hit where the path stops.
 /// \param stream  One number is drawn per thin surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -547,7 +517,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return passage;
 }
 
-/// The surfaces that a path passes on its way to the next vertex; see pass_surfaces().
+/// The result of pass_surfaces(), which is not called if there are no such surfaces.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] inline PassageT<T> passage(const W& world, PathStateT<T>& path,
                                          std::optional<SceneHitT<T>>& hit,
@@ -558,7 +528,6 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return {};
 }
 
-/// Whether a type of scene lists a transparent material.
 template <AnyWorld W>
 inline constexpr bool lists_media = W::any_material([]<typename M>() {
     return Transparent<M>;
@@ -579,8 +548,7 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption coefficient in the body with a given rank, per scene unit; see
-/// BodyList. Nothing for rank 0, which is air.
+/// The absorption coefficient in a body of a rank, per scene unit; nothing for air.
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -593,8 +561,7 @@ medium_of_rank(const W& world, std::uint8_t rank) {
 /// The absorption coefficient at the origin of a ray. If several bodies contain the
 /// origin, the innermost body counts, or the body with the highest priority if the
 /// scene has priorities. A body contains the origin if the ray leaves the body without
-/// having entered it. Opaque surfaces are ignored. A body must be closed; it may
-/// consist of several shapes.
+/// having entered it. A body must be closed; it may consist of several shapes.
 /// \return Per scene unit; nothing outside all bodies.
 /// \cost One call of closest_hit() per surface up to the end of the body.
 template <AnyWorld W, std::floating_point T>
@@ -628,8 +595,7 @@ template <AnyWorld W, std::floating_point T>
 
 /// The absorption coefficient at the origin of a ray, per scene unit: interior_at(), or
 /// 0 outside all bodies.
-/// \cost Only a comparison if the origin is outside the bounding box of all bodies that
-///       absorb.
+/// \cost Only a comparison outside the bounding box of all absorbing bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> medium_at(const W& world, const RayT<T>& ray) {
     if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin))
@@ -637,31 +603,39 @@ template <AnyWorld W, std::floating_point T>
     return interior_at(world, ray).value_or(RgbT<T>{T(0)});
 }
 
+/// Calls f(number, medium, span) for each medium that a ray crosses. The span is the
+/// interval of t in which the ray is inside the medium. For the numbers, see
+/// visit_fog().
+template <AnyWorld W, std::floating_point T, typename F>
+void each_fog_on(const W& world, const RayT<T>& ray, F&& f) {
+    std::uint32_t number = 0;
+    const auto ask = [&](const auto& list) {
+        for (const auto& medium : list) {
+            if (const auto span = span_in(medium, ray)) f(number, medium, *span);
+            ++number;
+        }
+    };
+    detail::each_array(world.media(), ask);
+}
+
 /// The optical depth of the fog along a ray outside all bodies: the extinction of each
-/// medium times the length of the ray within it, per channel. The transmittance is
-/// exp(-depth).
-/// \param world  The closed scene.
-/// \param ray    The ray. Its direction may have any length above 0.
-/// \return Per channel, at least 0.
+/// medium times the length of the ray within it. The transmittance is exp(-depth). The
+/// direction of the ray may have any length above 0.
 // [optical depth]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> optical_depth(const W& world, const RayT<T>& ray) {
     RgbT<T> depth{T(0)};
     const T unit = glm::length(ray.direction);
-    const auto add = [&](const auto& list) {
-        for (const auto& medium : list)
-            if (const auto span = span_in(medium, ray))
-                depth += (span->last - span->first) * unit * extinction(medium);
-    };
-    detail::each_array(world.media(), add);
+    each_fog_on(world, ray, [&](auto, const auto& medium, auto span) {
+        depth += (span.last - span.first) * unit * extinction(medium);
+    });
     return depth;
 }
 // [optical depth]
 
 /// Whether a ray may cross fog: the scene has fog, and the ray does not start inside a
 /// body, where there is no fog.
-/// \cost Only a comparison if the origin is outside the bounding box of all transparent
-///       bodies.
+/// \cost Only a comparison outside the bounding box of all transparent bodies.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
     if (!world.has_fog()) return false;
@@ -671,10 +645,8 @@ template <AnyWorld W, std::floating_point T>
         RayT<T>{.origin = ray.origin, .direction = ray.direction, .time = ray.time});
 }
 
-/// The fraction of light that crosses the fog along a ray up to its t_max.
-/// \param world  The closed scene.
-/// \param ray    The ray. It must not meet the surface of a body.
-/// \return In [0, 1] for each channel; 1 inside a body.
+/// The fraction of light that crosses the fog along a ray; 1 inside a body. The ray
+/// must not meet the surface of a body before its t_max.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> fog_transmittance(const W& world, const RayT<T>& ray) {
     if (!meets_fog(world, ray)) return RgbT<T>{T(1)};
@@ -683,9 +655,8 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// Sets the medium of a path if PathStateT::medium_known is false. This is so at the
-/// start of the path. In a scene whose bodies may lie inside others, it is also so
-/// where the path has left a body.
+/// Sets the medium of a path if PathStateT::medium_known is false: at the start of the
+/// path, and in a scene whose bodies may lie inside others, where it has left a body.
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {
@@ -697,8 +668,7 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
 }
 
 /// In a scene with priorities, sets the index of refraction on the outside of a vertex,
-/// and the medium of the path. This medium is that of the body with the highest
-/// priority around the path.
+/// and the medium of the path: that of the body with the highest priority around it.
 /// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
@@ -716,12 +686,9 @@ inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
 
 /// Advances a path to its next vertex. The throughput is multiplied by the
 /// transmittance of media and thin surfaces on the way. At the first material that
-/// disperses light, it is also multiplied by the colour of the wavelength that is
-/// chosen there.
-/// \param world   The closed scene.
-/// \param path    The path. Its depth grows by 1. Receives the last segment of the ray.
-/// \param stream  Advanced to the start of the bounce. One number is drawn per thin
-///                surface, and one if a wavelength is chosen.
+/// disperses light, the throughput is also multiplied by the colour of the wavelength
+/// that is chosen there. The stream is advanced to the start of the bounce; one number
+/// is drawn per thin surface, and one if a wavelength is chosen.
 /// \return The vertex; nothing if the path leaves the scene.
 // [next_vertex]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
@@ -737,9 +704,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
     if constexpr (detail::lists_dispersive<W>)
         detail::disperse(world, path, *vertex, *hit,
-                         passage.outside == 0 ? no_body
-                                              : world.material_of_rank(passage.outside),
-                         stream);
+                         world.material_of_rank(passage.outside), stream);
     if (hit->shared) detail::set_contact(*vertex, world, path.ray, *hit);
     detail::set_bodies(*vertex, world, path, passage.outside);
     vertex->medium = path.medium;

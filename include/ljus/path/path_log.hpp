@@ -43,12 +43,9 @@ struct PathLog {
         here = glm::dvec3(position);
     }
 
-    /// Records a scattering at a vertex.
-    /// \param letter      S for a specular lobe, otherwise D.
-    /// \param position    Position of the vertex.
-    /// \param throughput  Throughput of the path after the vertex.
-    /// \param pdf         Density of the new direction, per steradian; 0 for a specular
-    ///                    lobe.
+    /// Records a scattering at a vertex: the letter, S for a specular lobe and D for
+    /// any other; the throughput after the vertex; and the density of the new
+    /// direction, per steradian, which is 0 for a specular lobe.
     template <std::floating_point T>
     void vertex(char letter, const Vec3T<T>& position, const RgbT<T>& throughput,
                 T pdf) {
@@ -77,23 +74,21 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
     if constexpr (requires { log.arrive(position); }) log.arrive(position);
 }
 
-/// Reports a term to a log that has delay(). The value of the term is found later, by a
-/// batch.
+/// Reports a term whose value a batch finds later to a log that has delay().
 /// \param suffix  The letters from the last vertex to the light.
 template <typename Log>
 void log_delay(Log& log, std::string_view suffix) {
     if constexpr (requires { log.delay(suffix); }) log.delay(suffix);
 }
 
-/// Reports the last scattering of a path to a log.
-/// \param path  The path after continue_path().
+/// Reports the last scattering of a path, after continue_path().
 template <typename Log, std::floating_point T>
 void log_vertex(Log& log, const PathStateT<T>& path) {
     log.vertex(path.specular ? 'S' : 'D', path.previous, path.throughput, path.pdf);
 }
 
-/// Reports a path from split_path() as a new path, with all its vertices so far.
-/// \param path  The path. It has met only mirrors and glass.
+/// Reports a path from split_path(), which has met only mirrors and glass, as a new
+/// path with all its vertices so far.
 template <typename Log, std::floating_point T>
 void log_specular_path(Log& log, const PathStateT<T>& path) {
     log.begin();

@@ -46,18 +46,11 @@ struct PathStateT {
 };
 using PathState = PathStateT<float>; ///< PathStateT in float.
 
-/// Russian roulette on a camera path \cite arvo1990. The path survives with a
-/// probability proportional to its throughput. The throughput of a survivor is divided
-/// by this probability, so that the mean radiance stays the same. The scaling of
-/// radiance by refraction, `eta_scale`, does not influence the probability.
-/// \param throughput       The throughput. Its largest channel sets the probability. If
-///                         the path survives, the throughput is divided by the
-///                         probability.
-/// \param eta_scale        PathStateT::eta_scale.
-/// \param u                In [0, 1).
-/// \param threshold        Paths with a larger throughput survive with probability
-///                         `max_probability`.
-/// \param max_probability  The largest probability, in (0, 1].
+/// Russian roulette on a camera path \cite arvo1990. The path survives if `u`, in
+/// [0, 1), is below the probability min(max_probability, q / threshold). Here q is the
+/// largest channel of the throughput, divided by PathStateT::eta_scale. The throughput
+/// of a survivor is divided by the probability, so that the mean radiance stays the
+/// same.
 /// \return Whether the path survives.
 // [survives]
 template <std::floating_point T>

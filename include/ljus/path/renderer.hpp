@@ -29,8 +29,8 @@ struct Counts {
     std::uint64_t skipped_bounces = 0;
     /// Samples that were rejected because they were not finite.
     std::uint64_t rejected = 0;
-    std::uint64_t cut_paths =
-        0; ///< Paths that the depth limit has ended; their light is missing.
+    /// Paths that the depth limit has ended; their light is missing.
+    std::uint64_t cut_paths = 0;
 
     /// All rays.
     [[nodiscard]] constexpr std::uint64_t rays() const noexcept {
@@ -96,16 +96,12 @@ struct NoLog {
 struct NoBatch {};
 
 /// The context of one camera ray and of the path that begins with it.
-/// \tparam S  The type of the random stream.
-/// \tparam L  The type of the log; usually NoLog.
-/// \tparam B  The type of the batch, which computes deferred estimates for many rays
-///            together; usually NoBatch.
 template <StreamLike S, typename L = const NoLog, typename B = const NoBatch>
 struct Context {
     S& stream;      ///< Random numbers of the path.
     Counts& counts; ///< Counters of rays and photons.
     L& log;         ///< Receives each vertex and each term.
-    B& batch;       ///< Receives deferred estimates.
+    B& batch;       ///< Computes deferred estimates for many rays together.
 };
 /// Deduces the types from the values.
 template <StreamLike S, typename L, typename B>
@@ -113,9 +109,7 @@ Context(S&, Counts&, L&, B&) -> Context<S, L, B>;
 
 namespace detail {
 
-/// A NoLog object for a Context to refer to.
 inline constexpr NoLog no_log{};
-/// A NoBatch object for a Context to refer to.
 inline constexpr NoBatch no_batch{};
 
 } // namespace detail
@@ -134,10 +128,8 @@ struct RadianceSum {
     const RgbT<T>& throughput; ///< Throughput of the path so far.
     L& log;                    ///< Receives each term.
 
-    /// Adds radiance times the throughput.
-    /// \param owner    The estimator: "emission", "shadow ray", "caustics map", ...
-    /// \param letters  The letters from the last vertex to the light.
-    /// \param light    Radiance, without the throughput.
+    /// Adds radiance times the throughput, found by the estimator `owner`, such as
+    /// "shadow ray". The letters lead from the last vertex to the light.
     void operator()(const char* owner, const char* letters,
                     const RgbT<T>& light) const {
         add(owner, letters, throughput * light);

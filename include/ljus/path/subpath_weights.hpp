@@ -20,9 +20,13 @@ namespace ljus {
 /// connection of two vertices, or by merging two vertices that are close together. The
 /// *opposite way* of a subpath is the way from its last vertex back to its first.
 ///
-/// The functions take densities per steradian, cosines and distances. At a mirror or
-/// clear glass the density of a direction is infinite, on both ways. The two infinite
-/// densities cancel, and both are given as 0.
+/// The arguments of the functions, if not said otherwise: `at` are the weights of a
+/// subpath at its last vertex. `pdf` is the density of the next direction, and `back`
+/// that of the last direction on the opposite way, both per steradian. At a mirror or
+/// clear glass both densities are infinite; they cancel, and are given as 0. `cosine`
+/// is the |cosine| of a direction and the geometric normal, `probability` that of
+/// choosing the light, and `merging` is \f$\eta\f$ of SubpathWeights, 0 without
+/// merging.
 /// \{
 
 /// Two numbers for the last vertex x of a subpath. Let x be connected to a vertex y of
@@ -55,8 +59,6 @@ struct LightEnd {
 };
 
 /// The weights of a light path at its start, for arrived().
-/// \param end          The point of the light.
-/// \param probability  The probability of choosing the light.
 // [start]
 [[nodiscard]] inline SubpathWeights started(const LightEnd& end,
                                             double probability) noexcept {
@@ -64,15 +66,9 @@ struct LightEnd {
 }
 // [start]
 
-/// The weights after a subpath has scattered at its last vertex.
-/// \param at       The weights at the vertex.
-/// \param pdf      Density of the new direction, per steradian; 0 for mirror or glass.
-/// \param back     Density of the old direction on the opposite way, per steradian.
-/// \param cosine   |cosine| of the new direction and the geometric normal. At a mirror
-///                 or glass, it is the |cosine| of the old direction instead, which
-///                 cancels the division in arrived().
-/// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
-/// \return The weights for arrived().
+/// The weights, for arrived(), after a subpath has scattered at its last vertex. The
+/// cosine is that of the next direction. At a mirror or glass it is that of the last
+/// direction instead, which cancels the division in arrived().
 // [recursion]
 [[nodiscard]] inline SubpathWeights scattered(const SubpathWeights& at, double pdf,
                                               double back, double cosine,
@@ -81,22 +77,16 @@ struct LightEnd {
     return {1 / pdf, (at.join + merging + back * at.further) * cosine / pdf};
 }
 
-/// The weights at the next vertex of a subpath.
-/// \param from       The result of started() or scattered().
-/// \param cosine     |cosine| of the direction and the geometric normal at the vertex.
-/// \param distance2  Squared distance from the last vertex.
+/// The weights at the next vertex of a subpath, from the result of started() or
+/// scattered() and the squared distance of the two vertices.
 [[nodiscard]] inline SubpathWeights arrived(const SubpathWeights& from, double cosine,
                                             double distance2) noexcept {
     return {from.join * distance2 / cosine, from.further / cosine};
 }
 
 /// The sum of the densities of all strategies whose joint lies on one subpath of a
-/// connection, relative to the density of the connection; see SubpathWeights.
-/// \param at       The weights at x, the last vertex of this subpath.
-/// \param density  Density, per area, with which a path from the other vertex finds x.
-/// \param back     Density of the direction from x to the vertex before x, per
-///                 steradian.
-/// \param merging  \f$\eta\f$ of SubpathWeights; 0 without merging.
+/// connection, relative to the density of the connection; see SubpathWeights. `density`
+/// is that with which a path from the other vertex finds the last vertex, per area.
 [[nodiscard]] inline double others(const SubpathWeights& at, double density,
                                    double back, double merging) noexcept {
     return density * (at.join + merging + back * at.further);
@@ -105,9 +95,6 @@ struct LightEnd {
 
 /// The sum of the densities of all other strategies, relative to the density of a
 /// camera path that hits a lamp.
-/// \param at           The weights of the camera path at the lamp.
-/// \param end          The point of the lamp.
-/// \param probability  The probability of choosing the lamp.
 // [ends]
 [[nodiscard]] inline double others_of_emission(const SubpathWeights& at,
                                                const LightEnd& end,
@@ -116,17 +103,8 @@ struct LightEnd {
 }
 
 /// The sum of the densities of all other strategies, relative to the density of a
-/// shadow ray.
-/// \param at           The weights of the camera path at the lit surface.
-/// \param end          The point of the light.
-/// \param probability  The probability of choosing the light.
-/// \param pdf          Density with which the camera path samples the direction of the
-///                     shadow ray, per steradian.
-/// \param back         Density of the direction from the surface to the vertex before,
-///                     for a path from the light, per steradian.
-/// \param cosine       |cosine| of the shadow ray and the surface's geometric normal.
-/// \param distance2    Squared length of the shadow ray.
-/// \param merging      \f$\eta\f$ of SubpathWeights; 0 without merging.
+/// shadow ray from the last vertex of a camera path. The next direction is that of the
+/// shadow ray, and `distance2` is its squared length.
 [[nodiscard]] inline double
 others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double probability,
                      double pdf, double back, double cosine, double distance2,
@@ -137,28 +115,21 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 }
 // [ends]
 
-/// The sum of the densities of all strategies whose joint lies on one subpath before x,
-/// relative to the density of merging at x.
-/// \param at       The weights of the subpath at x.
-/// \param back     Density of the direction from x to the vertex before x, per
-///                 steradian.
-/// \param merging  \f$\eta\f$ of SubpathWeights, above 0.
+/// The sum of the densities of all strategies whose joint lies on one subpath before
+/// its last vertex, relative to the density of merging there; `merging` is above 0.
 [[nodiscard]] inline double others_merged(const SubpathWeights& at, double back,
                                           double merging) noexcept {
     return (at.join + back * at.further) / merging;
 }
 
-/// The weight of a strategy by the balance heuristic \cite veach1995.
-/// \param sum  The sum of the densities of all other strategies, relative to that of
-///             this strategy.
-/// \return In [0, 1]; 0 if the sum is not finite.
+/// The weight of a strategy by the balance heuristic \cite veach1995, from the sum of
+/// the densities of all others relative to its own; 0 if the sum is not finite.
 [[nodiscard]] inline double weight_against(double sum) noexcept {
     return std::isfinite(sum) ? 1 / (1 + sum) : 0;
 }
 
 namespace detail {
 
-/// |cosine| of a direction and the geometric normal of a vertex.
 template <std::floating_point T>
 [[nodiscard]] double cosine_at(const VertexT<T>& at, const Vec3T<T>& direction) {
     return std::abs(double(glm::dot(direction, at.point.normal)));
@@ -197,9 +168,7 @@ struct TurnT {
     double back = 0;
 };
 
-/// Computes a TurnT.
-/// \param direction  Unit direction in the world.
-/// \param transport  The quantity that the path carries.
+/// Computes a TurnT for a unit direction in the world.
 template <std::floating_point T, Material M>
 [[nodiscard]] TurnT<T> turn(const VertexT<T>& at, const M& material,
                             const Vec3T<T>& direction, Transport transport) {
@@ -226,12 +195,9 @@ inline constexpr bool has_light_end = requires(const L& light, const V& v) {
     pdf_emission(light, v, v);
 };
 
-/// Computes the densities at the end of a path on a light.
-/// \param world      The closed scene.
-/// \param light      The index of the light. Its type must satisfy has_light_end.
-/// \param point      The point of the light.
-/// \param direction  Unit direction away from the light.
-/// \param x          The point of the surface that the direction reaches.
+/// Computes the densities at the end of a path on a light, whose type must satisfy
+/// has_light_end. The unit direction leads from the point of the light to the point x
+/// of a surface.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] LightEnd light_end(const W& world, std::uint32_t light,
                                  const SurfacePointT<T>& point,

@@ -35,8 +35,7 @@ struct BodyList {
             if (rank > place) std::swap(rank, place);
         return list;
     }
-    /// A copy of the list without one body of the given rank. If there is no such body,
-    /// the copy is equal to the list.
+    /// A copy of the list without one body of the given rank, if there is one.
     [[nodiscard]] constexpr BodyList without(std::uint8_t rank) const noexcept {
         BodyList list = *this;
         const auto at = std::find(list.ranks.begin(), list.ranks.end(), rank);
@@ -54,8 +53,8 @@ struct BodyList {
 struct BodyRanks {
     /// The materials. The material of rank r has the index r - 1.
     std::vector<MaterialId> materials{};
-    std::vector<std::vector<std::uint8_t>>
-        ranks{}; ///< The rank of each material, by type and index; 0 if opaque.
+    /// The rank of each material, by type and index; 0 if opaque.
+    std::vector<std::vector<std::uint8_t>> ranks{};
     bool prioritized = false; ///< Whether any material has a priority other than 0.
 };
 

@@ -73,12 +73,8 @@ template <std::floating_point T>
     return look_at<float>(view);
 }
 
-/// The primary ray through a point of the picture.
-/// \param camera  The camera.
-/// \param pixel   Position in pixels from the upper left corner: x in [0, width], y in
-///                [0, height].
-/// \param width   Width of the picture, in pixels.
-/// \param height  Height of the picture, in pixels.
+/// The primary ray through a point of the picture. `pixel` is its position in pixels
+/// from the upper left corner.
 /// \return A ray from the pinhole, with a direction of unit length.
 /// \report{Section 3.2, Fig. 3}
 // [primary_ray]

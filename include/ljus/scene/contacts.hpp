@@ -27,8 +27,8 @@ namespace ljus {
 /// floor. Chapter: \ref ch_refraction.
 ///
 /// A ray that leaves a surface starts beyond all surfaces in the same place. A path
-/// therefore meets only one of several surfaces in one place. Which one it meets must
-/// not depend on the order in which the objects were added:
+/// therefore meets only one of them. Which one must not depend on the order in which
+/// the objects were added:
 ///
 /// | in one place                             | what a path meets                   |
 /// |------------------------------------------|-------------------------------------|
@@ -52,8 +52,8 @@ struct DiscT;
 template <std::floating_point T>
 struct CylinderT;
 
-/// The kind of a surface in a contact. Of two kinds, a path meets the one that stands
-/// first in this list.
+/// The kind of a surface in a contact. Of two kinds, a path meets the first in this
+/// list.
 enum class ContactKind : std::uint8_t {
     lamp,   ///< A surface that emits.
     opaque, ///< An opaque surface.
@@ -71,15 +71,14 @@ inline constexpr MaterialId no_body{0xffffffffu, 0};
 /// number of the object.
 using ContactKey = std::array<double, 16>;
 
-/// Stands for the position of an object without contacts, and for the end of a list of
-/// contacts.
+/// The position of an object without contacts, and the end of a list of contacts.
 inline constexpr std::uint32_t no_contact = 0xffffffffu;
 
 /// Two objects that share an area or a point.
 struct Contact {
     std::array<std::uint32_t, 2> pair{}; ///< Positions in Contacts::objects.
-    std::array<std::uint32_t, 2>
-        next{};             ///< The next contact of each object, in Contacts::pairs.
+    /// The next contact of each object, in Contacts::pairs.
+    std::array<std::uint32_t, 2> next{};
     BoxT<double> box{};     ///< A box around the shared place.
     bool over_area = false; ///< Whether the objects share an area, not only points.
     /// Whether the outsides of the two objects are on the same side of a shared area.
@@ -92,17 +91,15 @@ struct Contact {
 struct TouchingObject {
     ObjectId object{};                      ///< The object.
     ContactKind kind = ContactKind::opaque; ///< The kind of the object's surface.
-    /// The key. Of several surfaces, a path meets the surface with the smallest key.
-    ContactKey key{};
-    std::uint32_t contact = no_contact; ///< The object's first contact.
+    ContactKey key{};                       ///< Decides which surface a path meets.
+    std::uint32_t contact = no_contact;     ///< The object's first contact.
 };
 
 /// All contacts of a scene.
 struct Contacts {
     detail::GrowingArray<Contact> pairs{};          ///< Each pair of objects once.
     detail::GrowingArray<TouchingObject> objects{}; ///< All objects with contacts.
-    /// A box around all places that several objects share.
-    BoxT<double> box{};
+    BoxT<double> box{};   ///< A box around all places that several objects share.
     bool complete = true; ///< False if more objects overlap than can be compared.
     /// For each type of shape, the number of objects of the types before it.
     std::vector<std::uint32_t> first{};
@@ -130,7 +127,7 @@ template <std::floating_point T>
     return within(0) && within(1) && within(2);
 }
 
-/// The bounding box of a shape: bounds() of the shape or of its bounding sphere.
+/// bounds() of a shape or of its bounding sphere.
 template <Shape S>
 [[nodiscard]] auto box_around(const S& shape) {
     if constexpr (requires { bounds(shape); })
@@ -208,11 +205,10 @@ template <Shape G>
 /// The kind of a surface that does not emit.
 template <Material M>
 [[nodiscard]] ContactKind kind_of([[maybe_unused]] const M& m) {
-    using T = typename M::Scalar;
-    if constexpr (requires { pass_through(m, Vec3T<T>{}, Vec3T<T>{}); })
+    if constexpr (ThinSurface<M>)
         return ContactKind::sheet;
     else if constexpr (Refractive<M>)
-        return refractive_index(m) > T(0) ? ContactKind::body : ContactKind::opaque;
+        return refractive_index(m) > 0 ? ContactKind::body : ContactKind::opaque;
     else
         return MayAbsorb<M> ? ContactKind::body : ContactKind::opaque;
 }
@@ -228,8 +224,7 @@ void put_color(ContactKey& key, std::size_t at, const RgbT<T>& color) {
 template <Material M>
 [[gnu::cold]] void put_material(ContactKey& key, const M& m) {
     using T = typename M::Scalar;
-    if constexpr (requires { refractive_index(m); })
-        key[4] = -double(refractive_index(m));
+    if constexpr (Refractive<M>) key[4] = -double(refractive_index(m));
     if constexpr (MayAbsorb<M>) put_color(key, 5, absorption(m));
     const Vec3T<T> wo{T(0.6), T(0), T(0.8)}, up{T(0), T(0), T(1)};
     const auto& here = material_at(m, Vec3T<T>{T(0)}, Vec2T<T>{T(0.5)});
@@ -261,7 +256,8 @@ struct ContactSearch {
 [[nodiscard, gnu::cold]] LJUS_CORE_INLINE Contacts
 contacts_of(const ContactSearch& search);
 
-[[nodiscard, gnu::cold]] inline bool overlap(const Box& a, const Box& b) noexcept {
+template <std::floating_point T>
+[[nodiscard, gnu::cold]] bool overlap(const BoxT<T>& a, const BoxT<T>& b) noexcept {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
            b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
@@ -270,11 +266,8 @@ contacts_of(const ContactSearch& search);
 /// the same appearance, and their boxes are not compared with each other.
 class LookTree {
 public:
-    /// Builds the tree.
-    /// \param boxes  The boxes, in units of the scene's largest coordinate, so that
-    ///               floats can represent them. Each box is enlarged by
-    ///               contact_distance().
-    /// \param looks  The look of each box.
+    /// Builds the tree. The boxes are enlarged by contact_distance(), and in units of
+    /// the scene's largest coordinate, so that floats can represent them.
     LookTree(std::vector<Box> boxes, std::vector<std::uint32_t> looks)
         : boxes_(std::move(boxes)), looks_(std::move(looks)),
           tree_(build_bvh<float>(boxes_)), below_(tree_.nodes.size(), several) {
@@ -297,12 +290,8 @@ public:
     }
     [[nodiscard]] const Box& box(std::uint32_t i) const noexcept { return boxes_[i]; }
 
-    /// Calls f(k) for each box k that overlaps box i and contains a surface of a
-    /// different appearance.
-    /// \param i       The index of a box.
-    /// \param budget  The number of nodes that may still be visited; it is counted
-    ///                down.
-    /// \param f       Called with the index of a box.
+    /// Calls f(k) for each box k that overlaps box i and has a different look. The
+    /// budget is the number of nodes that may still be visited.
     /// \return False if the budget is spent.
     template <typename F>
     bool each_overlap(std::uint32_t i, long long& budget, F&& f) const {
@@ -354,8 +343,7 @@ struct ContactPieces {
     std::vector<std::uint32_t> number{}; ///< The piece's number within the object.
 };
 
-/// Lists the pieces of all objects. Of a mesh, only pieces close to other objects are
-/// listed.
+/// Lists the pieces of all objects; of a mesh, only those close to other objects.
 [[nodiscard, gnu::cold]] inline ContactPieces
 list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks,
             long long& budget) {
@@ -396,8 +384,8 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     return pieces;
 }
 
-/// Finds the pairs of objects with pieces in one place. Contact::pair then has the
-/// numbers of the two objects.
+/// Finds the pairs of objects with pieces in one place, as numbers in
+/// ContactSearch::objects.
 [[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
                                      const std::vector<std::uint32_t>& looks) {
     long long budget = 1'000'000'000; // nodes
@@ -433,8 +421,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an
-/// object. The areas are rounded to whole numbers, because a sum of whole numbers does
-/// not depend on the order.
+/// object. A sum of whole numbers does not depend on the order.
 [[nodiscard, gnu::cold]] inline std::vector<double>
 covered_areas(std::span<const ContactObject> objects, std::size_t materials) {
     std::vector<double> covered(materials);
@@ -482,7 +469,7 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
     std::uint32_t materials = 0;
     for (const ContactObject& object : search.objects)
         materials = std::max(materials, object.material + 1);
-    std::vector<std::uint32_t> looks(search.objects.size(), materials);
+    std::vector<std::uint32_t> looks(search.objects.size());
     bool one_look = true;
     for (std::uint32_t i = 0; i < looks.size(); ++i) {
         const ContactObject& object = search.objects[i]; // opaque: by material
@@ -499,11 +486,9 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 
 } // namespace detail
 
-/// Finds the contacts of a scene.
-/// \param world  A World whose shapes, objects and materials are complete.
-/// \param boxes  The box of each object, in the order of types and indices.
-/// \return The contacts. The order in which objects were added affects only the order
-///         of the contacts.
+/// Finds the contacts of a World whose shapes, objects and materials are complete, from
+/// the box of each object, in the order of types and indices. The order in which the
+/// objects were added affects only the order of the contacts.
 /// \cost O(n log n) for n boxes; less if neighbouring objects are opaque and have the
 ///       same material.
 template <typename W>

@@ -25,12 +25,10 @@ struct LensCameraT {
 };
 using LensCamera = LensCameraT<float>; ///< LensCameraT in float.
 
-/// Replaces the pinhole of a camera by a thin lens.
-/// \param camera  A camera made by look_at().
-/// \param radius  Radius of the lens in scene units, at least 0.
-/// \param focus   Distance of the plane of focus in scene units, above 0.
-/// \return The camera.
-/// \throws std::invalid_argument  if `radius` or `focus` is out of range.
+/// Replaces the pinhole of a camera by a thin lens, with the radius of the lens and the
+/// distance of the plane of focus in scene units.
+/// \throws std::invalid_argument  if the radius is not at least 0, or the distance not
+///         above 0.
 template <std::floating_point T>
 [[nodiscard]] LensCameraT<T> with_lens(const CameraT<T>& camera,
                                        std::type_identity_t<T> radius,
@@ -41,14 +39,9 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray from a point of the lens. It meets the ray through the pinhole in
-/// the plane of focus.
-/// \param camera  The camera.
-/// \param pixel   Position in pixels from the upper left corner: x in [0, width], y in
-///                [0, height].
-/// \param width   Width of the picture, in pixels.
-/// \param height  Height of the picture, in pixels.
-/// \param u       Point of the unit square, which gives a uniform point of the lens.
+/// The primary ray from a point of the lens, which is uniform if `u` is a uniform point
+/// of the unit square. The ray meets the ray through the pinhole in the plane of focus.
+/// `pixel` is as for a CameraT.
 /// \return A ray from the lens, with a direction of unit length.
 /// \cite cook1984
 // [lens ray]
@@ -65,9 +58,8 @@ template <std::floating_point T>
 }
 // [lens ray]
 
-/// The primary ray from a random point of the lens, as in CameraLike. The function
-/// draws two random numbers. For a lens of radius 0 it draws none and returns the ray
-/// through the pinhole.
+/// The primary ray from a random point of the lens, as in CameraLike. Two numbers are
+/// drawn, or none for a lens of radius 0.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] RayT<T> camera_ray(const LensCameraT<T>& camera, const Vec2T<T>& pixel,
                                  int width, int height, Stream& stream) noexcept {
@@ -75,13 +67,9 @@ template <std::floating_point T, StreamLike Stream>
     return primary_ray(camera, pixel, width, height, next_2d<T>(stream));
 }
 
-/// The diameter of the circle of confusion: the disc in the picture that a point out of
-/// focus becomes.
-/// \param camera  The camera.
-/// \param depth   Distance of the point along the view in scene units, above 0.
-/// \param height  Height of the picture, in pixels.
-/// \return The diameter, in pixels.
-/// \cite cook1984
+/// The diameter, in pixels, of the circle of confusion: the disc in the picture that a
+/// point out of focus becomes. `depth` is the distance of the point along the view, in
+/// scene units and above 0. \cite cook1984
 // [circle of confusion]
 template <std::floating_point T>
 [[nodiscard]] T circle_of_confusion(const LensCameraT<T>& camera, T depth,

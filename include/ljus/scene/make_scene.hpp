@@ -31,9 +31,7 @@ struct Placed {
     bool inside_out = false;       ///< Whether the normal points inwards.
 };
 
-/// Pairs a shape with its material, for make_scene(). The emission is the radiance on
-/// the side of the shape's normal, in W/(m^2 sr). If `inside_out` is true, the normal
-/// points inwards.
+/// Pairs a shape with its material and emission, for make_scene(); see Placed.
 template <Shape S, Material M>
 [[nodiscard]] Placed<S, M>
 placed(const S& shape, const M& material,
@@ -69,29 +67,17 @@ struct PartOf;
 
 template <typename S, typename M>
 struct PartOf<Placed<S, M>> {
-    using Shape = TypeList<S>;    ///< The type of the shape.
-    using Material = TypeList<M>; ///< The type of the material.
-    using Light = TypeList<>;     ///< No type.
+    using Shape = TypeList<S>;
+    using Material = TypeList<M>;
+    using Light = TypeList<>;
 };
 
 template <LightSource L>
 struct PartOf<L> {
-    using Shape = TypeList<>;    ///< No type.
-    using Material = TypeList<>; ///< No type.
-    using Light = TypeList<L>;   ///< The type of the light.
+    using Shape = TypeList<>;
+    using Material = TypeList<>;
+    using Light = TypeList<L>;
 };
-
-/// Adds a placed() shape to a scene that lists its types.
-template <typename Scene, typename S, typename M>
-void add_part(Scene& scene, const Placed<S, M>& part) {
-    scene.add(part.shape, scene.add(part.material), part.emission, part.inside_out);
-}
-
-/// Adds a light that is not an object.
-template <typename Scene, LightSource Light>
-void add_part(Scene& scene, const Light& light) {
-    scene.add(light);
-}
 
 /// An argument of make_scene(): a placed() shape or a light.
 template <typename Part>
@@ -114,12 +100,10 @@ scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
 
 } // namespace detail
 
-/// Makes a scene of shapes and lights, which are added in the order of the arguments.
-/// Types are listed in the order in which they first occur. Each placed() shape gets a
-/// material of its own. Shapes that share a material are added by Scene::add().
-/// \param parts  Lights and placed() shapes, with at least one shape. All have the same
-///               precision.
-/// \return The scene.
+/// Makes a scene of lights and at least one placed() shape, all of the same precision,
+/// which are added in the order of the arguments. Types are listed in the order in
+/// which they first occur. Each shape gets a material of its own; Scene::add() adds
+/// shapes that share a material.
 /// \throws std::invalid_argument  as Scene::add().
 template <detail::ScenePart... Part>
 requires(detail::PlacedPart<Part> || ...)
@@ -128,7 +112,14 @@ requires(detail::PlacedPart<Part> || ...)
         (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Shape{}),
         (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Material{}),
         (detail::TypeList<>{} + ... + typename detail::PartOf<Part>::Light{}));
-    (detail::add_part(scene, parts), ...);
+    const auto add = [&scene]<typename P>(const P& part) {
+        if constexpr (detail::PlacedPart<P>)
+            scene.add(part.shape, scene.add(part.material), part.emission,
+                      part.inside_out);
+        else
+            scene.add(part);
+    };
+    (add(parts), ...);
     return scene;
 }
 

@@ -51,7 +51,7 @@ struct CrossingT {
 namespace detail {
 
 /// Calls f(rank, hit, front) for each surface of a transparent body at a hit of
-/// closest_hit(). `front` is whether the ray arrives from outside the body.
+/// closest_hit(). `front` tells whether the ray arrives from outside the body.
 /// \return The point of the hit, with an error so large that a ray spawned there starts
 ///         beyond all these surfaces.
 template <AnyWorld W, std::floating_point T, typename F>
@@ -77,12 +77,9 @@ SurfacePointT<T> each_body_at(const W& world, const RayT<T>& ray,
 
 } // namespace detail
 
-/// The boundary that a ray crosses at a hit.
-/// \param world  The closed scene.
-/// \param ray    The ray, with a direction of any length.
-/// \param hit    A hit of closest_hit().
-/// \param known  The bodies before the hit, as far as they are known. If a body ends at
-///               the hit but is not in the list, it is added to CrossingT::before.
+/// The boundary that a ray, with a direction of any length, crosses at a hit of
+/// closest_hit(). `known` are the bodies before the hit, as far as they are known. A
+/// body that ends at the hit but is not known is added to CrossingT::before.
 /// \cost Two surface points. If objects are in contact at the hit, two searches for the
 ///       other surfaces.
 template <AnyWorld W, std::floating_point T>
@@ -116,11 +113,10 @@ template <AnyWorld W, std::floating_point T>
     return crossing;
 }
 
-/// All bodies around the origin of a ray: the bodies that the ray leaves without having
-/// entered them. Each body must be closed. It may consist of several shapes.
-/// \param world  The closed scene.
-/// \param ray    The ray; its t_max is ignored.
-/// \cost A ray per surface up to the end of the scene.
+/// All bodies around the origin of a ray: the bodies that the ray, whose t_max is
+/// ignored, leaves without having entered them. Each body must be closed. It may
+/// consist of several shapes.
+/// \cost One call of closest_hit() per surface up to the end of the scene.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_around(const W& world, RayT<T> ray) {
     ray.t_max = std::numeric_limits<T>::infinity();

@@ -26,20 +26,19 @@ namespace ljus {
 /// other types is not compiled.
 /// \{
 
-/// The list of the types of shapes that a scene may contain.
+/// The types of shapes that a scene may contain.
 template <Shape... S>
 struct Shapes {};
 
-/// The list of the types of materials that a scene may contain.
+/// The types of materials that a scene may contain.
 template <Material... M>
 struct Materials {};
 
-/// The list of the types of lights that a scene may contain. Emissive objects are not
-/// listed.
+/// The types of lights that a scene may contain. Emissive objects are not listed.
 template <LightSource... L>
 struct Lights {};
 
-/// The list of the types of media that a scene may contain; see \ref medium.
+/// The types of media that a scene may contain; see \ref medium.
 template <Medium... P>
 struct Media {};
 
@@ -79,13 +78,18 @@ struct AddedId {
     bool is_light = false;   ///< True for a light, false for an object.
 };
 
+/// A material that transmits light without deflection: `pass_through(m, position, wo)`
+/// returns the transmittance. sample() of such a material returns reflection only.
+template <typename M>
+concept ThinSurface = requires(const M& m, const Vec3T<typename M::Scalar>& v) {
+    { pass_through(m, v, v) } -> std::same_as<RgbT<typename M::Scalar>>;
+};
+
 namespace detail {
 
-/// The index of the type X in a list. If no other type matches, it is the index of the
-/// last type.
+/// The index of the type X in a list; the last index if no other type matches.
 template <typename X, typename First, typename... List>
 inline constexpr std::uint32_t type_number = 0;
-/// The case of at least two types.
 template <typename X, typename First, typename Second, typename... List>
 inline constexpr std::uint32_t type_number<X, First, Second, List...> =
     std::is_same_v<X, First> ? 0 : 1 + type_number<X, Second, List...>;
@@ -93,8 +97,6 @@ inline constexpr std::uint32_t type_number<X, First, Second, List...> =
 /// True if no type is listed twice.
 template <typename... T>
 inline constexpr bool each_once = true;
-/// The case of at least one type: the first differs from all others, and the others are
-/// distinct.
 template <typename First, typename... T>
 inline constexpr bool each_once<First, T...> =
     !(std::is_same_v<First, T> || ...) && each_once<T...>;
@@ -135,7 +137,7 @@ struct PrototypeOf<S>
     : std::type_identity<std::remove_cvref_t<decltype(prototype(std::declval<S>()))>> {
 };
 
-/// The type of object to which the shapes of a list refer, or void.
+/// The first PrototypeOf the shapes of a list that is not void, or void.
 template <typename... S>
 struct PrototypeIn : std::type_identity<void> {};
 template <typename First, typename... S>
@@ -155,8 +157,8 @@ public:
         kept_.push_back(std::move(one));
         return kept_.back();
     }
-    /// Checks that the object to which a shape refers is kept here.
-    /// \throws std::invalid_argument  if it is not.
+    /// \throws std::invalid_argument  if the object to which a shape refers is not kept
+    ///         here.
     template <typename S>
     void require_kept(const S& shape) const {
         if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {
@@ -244,7 +246,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     detail::Prototypes<Prototype> prototypes;
 
     /// Adds a material.
-    /// \return The number of the material, for adding shapes.
+    /// \return Its number, for adding shapes.
     /// \throws std::invalid_argument  if a value lies outside the material's range.
     template <Material B>
     requires lists<B> MaterialId add(B material) {
@@ -264,13 +266,10 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return prototypes.keep(std::move(mesh));
     }
 
-    /// Adds a shape.
-    /// \param shape       The shape, of a listed type.
-    /// \param material    The number that add() returned for the material.
-    /// \param radiance    The radiance that the shape emits on the side of its normal,
-    ///                    in W/(m^2 sr). The emission of the material is added to it.
-    /// \param inside_out  Whether the normal points inwards, as in a room made of a
-    ///                    sphere.
+    /// Adds a shape with a material of this scene. `radiance`, in W/(m^2 sr), is
+    /// emitted on the side of the normal, in addition to the emission of the material.
+    /// `inside_out` tells whether the normal points inwards, as in a room made of a
+    /// sphere.
     /// \return The number of the object.
     /// \throws std::invalid_argument  if a value is out of range, or if the material is
     ///         unknown.
@@ -339,9 +338,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return objects[id.type][id.index];
     }
 
-    /// The emission of an object, including that of its material.
-    /// \param object  An object with a material of this scene.
-    /// \return The emission, in W/(m^2 sr).
+    /// The emission of an object, including that of its material, in W/(m^2 sr).
     /// \throws std::invalid_argument  if the material is unknown, if the radiance is
     ///         out of range, or if a surface that is thin or has holes emits.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
@@ -351,16 +348,12 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
                 static_cast<long long>(id.type), "one that add() returned");
         require(has(id), "the material's number", static_cast<long long>(id.index),
                 "one that add() returned");
-        const auto of_material = [&](const auto& m) {
+        const auto of_material = [&]<typename B>(const B& m) {
             const RgbT<Scalar> all = object.emission + emission(m);
-            constexpr bool thin = requires {
-                pass_through(m, Vec3T<Scalar>{}, Vec3T<Scalar>{});
-            };
-            require(!thin || is_black(all), "the radiance of a thin surface", all,
-                    "black: light goes straight on through it");
-            constexpr bool cut_out = CutOutMaterial<std::remove_cvref_t<decltype(m)>>;
-            require(!cut_out || is_black(all), "the radiance of a cut-out", all,
-                    "black: a lamp shines from all of its area, holes too");
+            require(!ThinSurface<B> || is_black(all), "the radiance of a thin surface",
+                    all, "black: light goes straight on through it");
+            require(!CutOutMaterial<B> || is_black(all), "the radiance of a cut-out",
+                    all, "black: a lamp shines from all of its area, holes too");
             return all;
         };
         return detail::visit_element(materials, id.type, id.index, of_material);

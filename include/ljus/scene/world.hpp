@@ -38,10 +38,8 @@ struct ChosenLightT {
     T probability = T(0);    ///< The probability of this choice.
 };
 
-/// The distribution for choose_light(). The power of a light is the sum of its
-/// channels.
-/// \param powers  The flux of each light, in W.
-/// \return The cumulative sums, one per light.
+/// The distribution for choose_light(), from the flux of each light, in W. The power of
+/// a light is the sum of the channels of its flux.
 template <std::floating_point T>
 [[nodiscard]] LightChoice light_choice(const std::vector<RgbT<T>>& powers) {
     LightChoice choice{std::vector<double>(powers.size())};
@@ -53,10 +51,8 @@ template <std::floating_point T>
     return choice;
 }
 
-/// The probability that choose_light() returns a light.
-/// \param choice  The distribution of the scene's lights.
-/// \param light   The number of the light.
-/// \return The light's fraction of the total power.
+/// The probability that choose_light() returns a light: its fraction of the total
+/// power.
 template <std::floating_point T>
 [[nodiscard]] T probability_of(const LightChoice& choice,
                                std::uint32_t light) noexcept {
@@ -65,9 +61,8 @@ template <std::floating_point T>
                           choice.cumulative.back());
 }
 
-/// Chooses a light with a probability proportional to its power.
-/// \param choice  The distribution of the scene's lights; at least one.
-/// \param u       A random number in [0, 1).
+/// Chooses a light with a probability proportional to its power. There must be a light,
+/// and `u` must be in [0, 1).
 /// \return The number of the light, and its probability, which is never 0.
 /// \cost A binary search.
 template <std::floating_point T>
@@ -104,9 +99,6 @@ inline constexpr std::size_t flat_loop_limit = 2;
 
 /// Intersects a ray with a shape of any type. Compute selects the arithmetic, if the
 /// shape offers a choice.
-/// \param ray    The ray. Hits lie in [t_min, t_max].
-/// \param shape  The shape.
-/// \return The hit; nothing for a miss.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_of(const RayT<T>& ray, const S& shape) {
     const auto ask = [&] {
@@ -124,11 +116,7 @@ template <typename Compute, std::floating_point T, typename S>
     }
 }
 
-/// Whether a ray meets a shape of any type. The function uses the shape's any-hit test
-/// meets(), if there is one.
-/// \param ray    The ray. Hits lie in [t_min, t_max].
-/// \param shape  The shape.
-/// \return Whether hit_of() would return a hit.
+/// Whether hit_of() would return a hit, by the shape's meets() if there is one.
 template <typename Compute, std::floating_point T, typename S>
 [[nodiscard]] bool is_met(const RayT<T>& ray, const S& shape) {
     if constexpr (requires { meets<Compute>(ray, shape); })
@@ -140,17 +128,13 @@ template <typename Compute, std::floating_point T, typename S>
 /// The type in which a World stores a scene's list of lights.
 template <typename LightList>
 struct KeptLights;
-/// For a list with one array per type of light.
 template <typename... L>
 struct KeptLights<std::tuple<std::vector<L>...>> {
-    /// The same arrays, with each light as a World stores it.
     using Type = std::tuple<std::vector<InSceneT<L>>...>;
 };
 
-/// Whether a type is a Scene.
 template <typename S>
 inline constexpr bool is_scene = false;
-/// True for a Scene.
 template <typename G, typename M, typename L, typename P>
 inline constexpr bool is_scene<Scene<G, M, L, P>> = true;
 
@@ -166,7 +150,7 @@ namespace detail {
 /// The textured lamps of a World.
 template <std::floating_point T>
 struct KeptPicturesT {
-    std::vector<PictureLightT<T>> lights{}; ///< The lamps.
+    std::vector<PictureLightT<T>> lights{};
     /// For each lamp of the scene, its index in `lights`; no_light for a lamp without a
     /// picture.
     std::vector<std::uint32_t> shown{};
@@ -192,8 +176,8 @@ struct SceneHitT {
 /// members are always consistent.
 ///
 ///     const World world(std::move(scene));
-/// \tparam S        A Scene.
-/// \tparam Compute  The arithmetic of all intersections, as for intersect().
+///
+/// Compute is the arithmetic of all intersections, as for intersect().
 template <typename S, typename Compute = void>
 class World {
     static_assert(detail::is_scene<S>, "A World is made of a Scene.");
@@ -203,8 +187,7 @@ public:
     /// The type of the tree: Bvh8 for float, BvhT for other precisions.
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
-    /// Closes a scene.
-    /// \param scene  The scene. It is moved, or copied if it has no instances.
+    /// Closes a scene, which is moved, or copied if it has no instances.
     /// \throws std::invalid_argument  if the scene contains data that add() would
     ///         refuse, or if its arrays are inconsistent.
     [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
@@ -242,16 +225,14 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     /// The bounding box of the bounding spheres of all shapes.
     [[nodiscard]] const BoxT<Scalar>& box() const noexcept { return box_; }
-    /// Whether a point may be in an absorbing body: whether the point lies in the
-    /// bounding box of all such bodies. In a scene with fog or priorities, the box is
-    /// that of all transparent bodies.
+    /// Whether a point lies in the bounding box of all absorbing bodies or, in a scene
+    /// with fog or priorities, of all transparent bodies.
     [[nodiscard]] bool may_be_in_medium(const Vec3T<Scalar>& point) const noexcept {
         return glm::all(glm::lessThanEqual(media_.low, point)) &&
                glm::all(glm::lessThanEqual(point, media_.high));
     }
     /// Whether the bounding box of an absorbing body overlaps that of another
-    /// transparent body. A path that leaves one of the two bodies may then still be in
-    /// the other.
+    /// transparent body, so that a path that leaves one may still be in the other.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// Whether the scene lists a type of material that may have a priority.
     static constexpr bool lists_priorities =
@@ -266,11 +247,11 @@ public:
     [[nodiscard]] std::uint8_t rank_of(MaterialId id) const noexcept {
         return ranks_.ranks.empty() ? std::uint8_t(0) : ranks_.ranks[id.type][id.index];
     }
-    /// The material of a rank, which is at least 1.
+    /// The material of a rank; no_body for rank 0, which is air.
     [[nodiscard]] MaterialId material_of_rank(std::uint8_t rank) const noexcept {
-        return ranks_.materials[rank - 1u];
+        return rank == 0 ? no_body : ranks_.materials[rank - 1u];
     }
-    /// The contacts: which objects have surfaces in one place.
+    /// The objects that have surfaces in one place.
     [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
     /// Whether surfaces of several objects may lie at the point t of a ray.
     /// \cost A comparison in a scene without contacts.
@@ -326,8 +307,7 @@ public:
         return object.light == no_light ? nullptr
                                         : picture_of(lights_[object.light].index);
     }
-    /// Whether a path can meet a light. It can if the light has a surface or fills the
-    /// sky.
+    /// Whether a path can meet a light: whether it is an object or fills the sky.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
             if (lights_[light].is_light)
@@ -335,21 +315,18 @@ public:
                                    []<typename L>(const L&) { return FillsSky<L>; });
         return !lights_[light].is_light;
     }
-    /// Calls f(shape) with the shape of an object. The argument has the shape's
-    /// concrete type.
+    /// Calls f(shape) with the shape of an object, in the shape's own type.
     template <typename F>
     decltype(auto) visit_shape(ObjectId id, F&& f) const {
         return detail::visit_element(shapes_, id.type, id.index, f);
     }
-    /// Calls f(material) with the material of an id. The argument has the material's
-    /// concrete type.
+    /// Calls f(material) with a material, in the material's own type.
     template <typename F>
     decltype(auto) visit_material(MaterialId id, F&& f) const {
         return detail::visit_element(materials_, id.type, id.index, f);
     }
-    /// Calls f(light) with a light. The argument has the light's concrete type. This is
-    /// an AreaLightT or a PictureLightT for an emissive object; for other lights it is
-    /// the type of the result of in_scene().
+    /// Calls f(light) with a light, in the light's own type: an AreaLightT or a
+    /// PictureLightT for an emissive object, and the result of in_scene() for others.
     template <typename F>
     decltype(auto) visit_light(std::uint32_t number, F&& f) const {
         const AddedId& id = lights_[number];
@@ -373,8 +350,7 @@ public:
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
     }
-    /// The same as any_material(), for only those types of which the scene has a
-    /// material.
+    /// The same as any_material(), for the types of which the scene has a material.
     template <typename F>
     [[nodiscard]] bool has_material([[maybe_unused]] F f) const noexcept {
         return detail::any_array(materials_,
@@ -397,7 +373,7 @@ private:
         LampT<Scalar> known;
     };
 
-    // Returns the box of each object, in the order of types and indices.
+    // The box of each object, in the order of types and indices.
     [[nodiscard, gnu::cold]] std::vector<BoxT<Scalar>> find_bounds() {
         std::vector<BoxT<Scalar>> boxes;
         std::size_t type = 0;
@@ -536,10 +512,8 @@ private:
             // For very many bodies it is true without the test, which is quadratic.
             nested_media_ = nested_media_ || bodies.size() > 4096;
             for (std::size_t k = 0; k < bodies.size() && !nested_media_; ++k)
-                nested_media_ =
-                    k != i && (!bodies[k].absorbs || k > i) &&
-                    glm::all(glm::lessThanEqual(box.low, bodies[k].box.high)) &&
-                    glm::all(glm::lessThanEqual(bodies[k].box.low, box.high));
+                nested_media_ = k != i && (!bodies[k].absorbs || k > i) &&
+                                detail::overlap(box, bodies[k].box);
         }
     }
 
@@ -653,10 +627,8 @@ private:
 
 namespace detail {
 
-/// Whether a type is a World.
 template <typename W>
 inline constexpr bool is_world = false;
-/// True for a World.
 template <typename S, typename Compute>
 inline constexpr bool is_world<World<S, Compute>> = true;
 
@@ -671,11 +643,10 @@ namespace detail {
 /// Causes a compile error for a scene that is not closed.
 template <typename W>
 struct Closed {
-    using Type = W; ///< The world.
+    using Type = W;
     static_assert(is_world<W>, "Close the scene: World world(std::move(scene)).");
 };
 
-/// Whether a type of scene lists a material with holes.
 template <AnyWorld W>
 inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
     return CutOutMaterial<M>;
@@ -684,8 +655,7 @@ inline constexpr bool lists_cut_outs = W::any_material([]<typename M>() {
 /// If a ray meets more holes than this in one object, it misses the object.
 inline constexpr int max_holes = 1000;
 
-/// The first hit of a ray on a shape. A hit in a hole of the shape's material does not
-/// count.
+/// The first hit of a ray on a shape, outside the holes of the shape's material.
 /// \cost One more intersection and one more look-up in the mask for each hole.
 // [solid_hit]
 template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
@@ -704,9 +674,8 @@ template <typename Compute, std::floating_point T, typename G, CutOutMaterial M>
 }
 // [solid_hit]
 
-/// Calls f() for an object without holes, or f(material) for an object whose material
-/// may have holes. If the scene lists no such material, only f() is compiled. If the
-/// scene contains none, the cost is one comparison.
+/// Calls f(material) for an object whose material may have holes, and f() for any
+/// other object.
 template <AnyWorld W, typename F>
 [[nodiscard]] decltype(auto) with_holes(const W& world, ObjectId id, F&& f) {
     if constexpr (lists_cut_outs<W>) {
@@ -723,7 +692,7 @@ template <AnyWorld W, typename F>
     }
 }
 
-/// Does the same as hit_of(), for an object of a scene. A point in a hole is not a hit.
+/// hit_of() for an object of a scene. A point in a hole is not a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
                                                  const RayT<T>& ray, const G& shape) {
@@ -735,7 +704,7 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
     });
 }
 
-/// Does the same as is_met(), for an object of a scene.
+/// is_met() for an object of a scene.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
                                 const G& shape) {
@@ -749,9 +718,8 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 
 } // namespace detail
 
-/// Refuses a scene with fog, for a method that does not compute light in fog.
-/// \param world  The closed scene.
-/// \param what   The name of the method, such as "photon maps".
+/// Refuses a scene with fog, for a method such as "photon maps" that does not compute
+/// light in fog.
 /// \throws std::invalid_argument  if the scene has a medium.
 template <AnyWorld W>
 void require_no_fog([[maybe_unused]] const W& world,
@@ -792,13 +760,9 @@ template <typename S, typename Compute, std::floating_point T>
 }
 
 /// Calls f(object, hit, front) for each surface that coincides with the surface at a
-/// hit, if the hit lies in the box of a contact. `front` tells whether the ray arrives
-/// from outside the object.
-/// \param world  The closed scene.
-/// \param ray    The ray.
-/// \param hit    A hit of the ray. f is called with this hit first.
-/// \param here   The object of the hit.
-/// \param f      The function.
+/// hit, and first for the hit itself, if the hit lies in the box of a contact. `here`
+/// is the object of the hit. `front` tells whether the ray arrives from outside the
+/// object.
 /// \return Distance of the farthest other surface from the hit, along the normal, in
 ///         scene units; nothing if there are no other surfaces.
 template <typename S, typename Compute, std::floating_point T, typename F>
@@ -846,10 +810,8 @@ template <typename S, typename Compute, std::floating_point T, typename F>
 
 } // namespace detail
 
-/// Decides which of several coinciding surfaces a ray meets.
-/// \param world  The closed scene.
-/// \param ray    The ray, with a direction of any length.
-/// \param hit    A hit of the ray.
+/// Decides which of several coinciding surfaces a ray meets at a hit. The direction of
+/// the ray may have any length.
 /// \return The surface that counts. If no other surface coincides with the surface of
 ///         the hit, this is the hit itself, without bodies.
 /// \cost One intersection for each object that may have a coinciding surface.
@@ -887,10 +849,6 @@ place_of(const World<S, Compute>& world, const RayT<T>& ray, const SceneHitT<T>&
 
 /// The first object that a ray meets, by a loop over all shapes: the plain twin of
 /// closest_hit().
-/// \param world  The closed scene.
-/// \param asked  The ray. Hits lie in [t_min, t_max].
-/// \return The nearest hit; nothing for a miss. For several surfaces in one place see
-///         \ref contacts.
 /// \cost One intersection per shape.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] std::optional<SceneHitT<T>>
@@ -916,8 +874,6 @@ closest_hit_plain(const World<S, Compute>& world, const RayT<T>& asked) {
 
 /// Whether any object intersects a ray, by a loop over all shapes: the plain twin of
 /// occluded().
-/// \param world  The closed scene.
-/// \param ray    The ray. Hits lie in [t_min, t_max].
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded_plain(const World<S, Compute>& world, const RayT<T>& ray) {
     std::uint32_t type = 0;
@@ -934,10 +890,8 @@ template <typename S, typename Compute, std::floating_point T>
 
 /// The first object that a ray meets, found by the tree. The result is the same as that
 /// of closest_hit_plain(), to the last bit.
-/// \param world  The closed scene.
-/// \param ray    The ray. Hits lie in [t_min, t_max].
-/// \return The nearest hit; nothing for a miss. For several surfaces in one place see
-///         \ref contacts.
+/// \return The nearest hit in [t_min, t_max]; nothing for a miss. For several surfaces
+///         in one place see \ref contacts.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
@@ -954,10 +908,8 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
     return place_of(world, ray, hit).met;
 }
 
-/// Whether any object intersects a ray, for shadow rays. The first hit that is found
+/// Whether any object intersects a ray in [t_min, t_max]. The first hit that is found
 /// ends the search.
-/// \param world  The closed scene.
-/// \param ray    The ray. Hits lie in [t_min, t_max].
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] bool occluded(const World<S, Compute>& world, const RayT<T>& ray) {
     if (world.ids().empty()) return occluded_plain(world, ray);
@@ -968,13 +920,9 @@ template <typename S, typename Compute, std::floating_point T>
     });
 }
 
-/// Samples a point of a light, for a shadow ray.
-/// \param world  The closed scene.
-/// \param light  The number of the light.
-/// \param from   The lit point. Under a sun it must be within the sphere around the
-///               scene.
-/// \param u      Point of the unit square.
-/// \param time   Time of the path, in [0, 1].
+/// Samples a point of a light, for a shadow ray from the lit point `from`, which must
+/// be within the sphere around the scene if the light is a sun. `u` is a point of the
+/// unit square, and `time` in [0, 1].
 /// \return The sample; nothing if the light does not shine in this direction.
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T>
