@@ -285,23 +285,24 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
             // The two halves are what was counted, each box once.
             auto sorted = refs;
             const auto halves = detail::divide(sorted, range, found);
-            REQUIRE(halves.low.first == 0);
-            REQUIRE(halves.low.last == halves.high.first);
-            REQUIRE(halves.high.last == refs.size());
-            CHECK(halves.low.depth == 1);
-            CHECK(halves.high.depth == 1);
+            const auto &low = halves[0], &high = halves[1];
+            REQUIRE(low.first == 0);
+            REQUIRE(low.last == high.first);
+            REQUIRE(high.last == refs.size());
+            CHECK(low.depth == 1);
+            CHECK(high.depth == 1);
             std::vector<Box> lower, upper;
             std::vector<int> seen(refs.size());
             for (std::uint32_t i = 0; i < refs.size(); ++i) {
                 ++seen[sorted[i].id];
-                (i < halves.low.last ? lower : upper).push_back(boxes[sorted[i].id]);
+                (i < low.last ? lower : upper).push_back(boxes[sorted[i].id]);
             }
             for (const int times : seen) CHECK(times == 1);
             CHECK(Plain::cost(lower, at_a_time) + Plain::cost(upper, at_a_time) ==
                   doctest::Approx(right.cost).epsilon(1e-5));
-            CHECK(halves.low.bounds.half_area() ==
+            CHECK(low.bounds.half_area() ==
                   doctest::Approx(Plain::half_area(lower)).epsilon(1e-5));
-            CHECK(halves.high.bounds.half_area() ==
+            CHECK(high.bounds.half_area() ==
                   doctest::Approx(Plain::half_area(upper)).epsilon(1e-5));
         }
     }

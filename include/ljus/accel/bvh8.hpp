@@ -27,14 +27,10 @@ public:
     /// \param multiple  The first slot of each leaf is a multiple of this number.
     ///                  Unused slots between leaves are padding.
     /// \throws std::invalid_argument  as the constructor of BvhT.
-    template <typename Boxes>
-    requires std::convertible_to<const Boxes&, std::span<const Box>>
-    explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
-                  std::uint32_t multiple = 1) {
-        wide_ = detail::make_bvh8(
-            detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
-            multiple);
-    }
+    explicit Bvh8(std::span<const Box> boxes, const BvhSettings& settings = {},
+                  std::uint32_t multiple = 1)
+        : wide_(detail::make_bvh8(detail::build_bvh(boxes, checked(settings)),
+                                  multiple)) {}
     /// Builds the same tree as the constructor above, but frees the boxes before it
     /// builds the nodes.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},

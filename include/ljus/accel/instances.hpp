@@ -49,21 +49,11 @@ template <std::floating_point T>
                                                const AffineT<T>& place) {
     using Wide = Vec3T<WideT<T>>;
     const AffineT<WideT<T>> map(place);
-    std::vector<double> sums;
-    sums.reserve(mesh.size());
-    double area = 0;
-    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-        const TriangleT<T> local = mesh.triangle(i);
-        if (has_area(local)) {
-            const Wide v1(local.v1);
-            area += double(glm::length(
-                        glm::cross(transform_vector(map, Wide(local.v2) - v1),
-                                   transform_vector(map, Wide(local.v3) - v1)))) /
-                    2;
-        }
-        sums.push_back(area);
-    }
-    return sums;
+    return summed_areas(mesh.data(), [&](const TriangleT<T>& local) {
+        const Wide v1(local.v1);
+        return glm::cross(transform_vector(map, Wide(local.v2) - v1),
+                          transform_vector(map, Wide(local.v3) - v1));
+    });
 }
 
 } // namespace detail
@@ -315,8 +305,9 @@ template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,
                                            const Vec2T<T>& u,
                                            const std::vector<double>& sums) noexcept {
-    const auto [part, left] =
-        detail::choose_part(sums.empty() ? instance.mesh().area_up_to() : sums, u.x);
+    const auto [chosen, left] = detail::choose_interval(
+        sums.empty() ? instance.mesh().area_up_to() : sums, u.x);
+    const auto part = static_cast<std::uint32_t>(chosen);
     return detail::placed_point(
         instance, part,
         sample_area(instance.mesh().triangle(part), Vec2T<T>{left, u.y}, Vec3T<T>(0)));

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "ljus/accel/neighbor.hpp"
-#include "ljus/math/require.hpp"
 
 namespace ljus {
 
@@ -50,9 +49,7 @@ public:
     /// \cost O(n log n) for any n points. In float a point takes 16 bytes, and 3 to 12
     ///       more for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
-        require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
-                "the number of points in a k-d tree",
-                static_cast<long long>(points.size()), "below 2^32");
+        detail::require_point_count(points.size());
         for (const Vec3T<T>& point : points) {
             require_finite("a point of the k-d tree", point);
             point_ids_.push_back(static_cast<std::uint32_t>(point_ids_.size()));

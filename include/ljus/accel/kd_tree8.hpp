@@ -83,7 +83,7 @@ public:
 
     /// The point at an index in the tree's order, below size().
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
-        return parts_.blocks[index / 8][index % 8];
+        return parts_.point(index);
     }
 
     /// The number of points.
@@ -127,13 +127,6 @@ public:
         });
     }
 
-    /// Finds the blocks of visit_blocks() for many balls of one radius; see
-    /// detail::find_in_balls().
-    template <typename Center, typename Expect>
-    void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
-                       detail::BallBlocks& found) const {
-        detail::find_in_balls(parts_, balls, center, radius, expect, found);
-    }
     /// Calls `visit(index, distance2)` for each point within a closed ball, with the
     /// point's index in the tree's order and its squared distance. The ball is given as
     /// for visit_blocks().

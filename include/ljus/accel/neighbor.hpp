@@ -8,9 +8,10 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
-#include "ljus/math/vector.hpp"
+#include "ljus/math/require.hpp"
 
 namespace ljus {
 
@@ -110,6 +111,13 @@ struct Nearest {
 };
 
 namespace detail {
+
+/// Refuses more points than a tree can have.
+inline void require_point_count(std::size_t count) {
+    require(count <= std::numeric_limits<std::uint32_t>::max(),
+            "the number of points in a k-d tree", static_cast<long long>(count),
+            "below 2^32");
+}
 
 /// The default filter of a search: accepts every point.
 struct AnyPoint {

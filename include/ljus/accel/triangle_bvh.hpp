@@ -173,30 +173,22 @@ public:
     }
 
 private:
-    // The leaf function of both traversals.
+    // A leaf function for detail::walk() that tests the triangles that pass the filter.
     template <bool definite_ends, typename Ask>
-    struct FilteredLeaf {
-        const TriangleBvh& of;
-        const Ray& ray;
-        Ask& ask;
-
-        bool operator()(std::uint32_t first, std::uint32_t count,
-                        const detail::Bvh8Ray* ready) const {
+    auto filtered_leaf(const Ray& ray, Ask& ask) const {
+        return [this, &ray, &ask](std::uint32_t first, std::uint32_t count,
+                                  const detail::Bvh8Ray* ready) {
             if (ready == nullptr || !ready->moderate)
-                return of.tree_.each_slot(ask)(first, count, ready);
+                return tree_.each_slot(ask)(first, count, ready);
             detail::FilteredTriangles found = detail::conservative_filter<Ask>(
-                of.blocks_[first / detail::lane_count], *ready, ray);
+                blocks_[first / detail::lane_count], *ready, ray);
             if (definite_ends && found.definite != 0) return true;
             while (found.possible != 0)
                 if (ask(first +
                         static_cast<std::uint32_t>(detail::take_lane(found.possible))))
                     return true;
             return false;
-        }
-    };
-    template <bool definite_ends, typename Ask>
-    FilteredLeaf<definite_ends, Ask> filtered_leaf(const Ray& ray, Ask& ask) const {
-        return {*this, ray, ask};
+        };
     }
 
     static void put(detail::TriangleLanes& block, std::size_t lane,

@@ -119,16 +119,6 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
     });
     return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
 }
-/// \}
-
-} // namespace detail
-
-/// \defgroup prefetch Prefetching
-/// \brief A read from memory takes hundreds of cycles. A prefetch starts the read
-/// early.
-/// \{
-
-namespace detail {
 
 /// Hints that `lines` cache lines of 64 bytes, from `address` on, will soon be read.
 /// The hint does not change results. Compilers without such a hint ignore it.
@@ -140,7 +130,8 @@ inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #endif
 }
 
-} // namespace detail
 /// \}
+
+} // namespace detail
 
 } // namespace ljus

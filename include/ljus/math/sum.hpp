@@ -3,11 +3,9 @@
 /// \file ljus/math/sum.hpp
 /// \brief Sums of many terms with a small rounding error.
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <type_traits>
 
 #include "ljus/version.hpp"
 

@@ -198,8 +198,7 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
 ///                  slots between leaves are padding.
 /// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
-[[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,
-                                  std::uint32_t multiple = 1) {
+[[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree, std::uint32_t multiple) {
     Bvh8Nodes wide;
     if (tree.nodes.empty()) return wide;
     wide.box = tree.nodes[0].box;

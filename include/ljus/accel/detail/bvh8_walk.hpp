@@ -67,27 +67,6 @@ struct Bvh8Ray {
            is_finite(r.near_shift) && is_finite(r.far_shift);
 }
 
-// The start of a search: the prepared ray, or the result of the search if the ray
-// cannot be prepared.
-struct Bvh8Start {
-    Bvh8Ray ray{};
-    bool done = true;   // the search has ended
-    bool found = false; // what the leaf function returned for all slots
-};
-
-// Prepares a ray. If that fails for a finite ray, the leaf function is called for all
-// slots at once.
-template <typename Leaf>
-inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
-    Bvh8Start start;
-    if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
-    start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
-    if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
-        start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
-                           static_cast<const Bvh8Ray*>(nullptr));
-    return start;
-}
-
 // Tests eight boxes at once. Returns the boxes that the ray enters, as yes_lanes()
 // does, and sets `t` to the distances at which it enters. Each type of search has its
 // own instance, because compilers inline a function that is called once.
@@ -232,18 +211,21 @@ private:
 /// \param watch  Called with the index of each visited node.
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
-    const Bvh8Start start = begin_walk(wide, ray, leaf);
-    if (start.done) return start.found;
+    if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return false;
+    Bvh8Ray ready;
+    if (!make_ready(ready, ray, wide.middle, wide.half))
+        return is_finite(ray.origin) && is_finite(ray.direction) &&
+               leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
+                    static_cast<const Bvh8Ray*>(nullptr));
     std::conditional_t<any, AnyOrder<Leaf>, NearestFirst<Leaf>> waiting;
     for (std::uint32_t at = 0;;) {
         if ((at & Bvh8Child::leaf) != 0) {
-            if (leaf(at & Bvh8Child::first, Bvh8Child::count(at), &start.ray))
-                return true;
+            if (leaf(at & Bvh8Child::first, Bvh8Child::count(at), &ready)) return true;
         } else {
             watch(at / Bvh8Child::stride);
             Lanes t;
             const std::uint64_t entered =
-                entered_lanes<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
+                entered_lanes<Leaf>(t, wide, at, ready, ray.t_min, ray.t_max);
             if (entered != 0) {
                 at = waiting.enter(wide, at, entered, t);
                 continue;

@@ -64,9 +64,8 @@ struct PrimitiveRefT {
     [[nodiscard]] BoundsT<T> centers() const noexcept {
         BoundsT<T> result{};
         for (int i = 0; i < 4; ++i) {
-            const T middle = T(0.5) * bounds.side[i] - T(0.5) * bounds.side[i + 4];
-            result.side[i] = middle;
-            result.side[i + 4] = -middle;
+            result.side[i] = center(i);
+            result.side[i + 4] = -center(i);
         }
         return result;
     }
@@ -172,17 +171,11 @@ template <std::floating_point T>
 }
 // [best_split]
 
-// The two halves of a range.
-template <std::floating_point T>
-struct HalvesT {
-    PrimitiveRangeT<T> low;
-    PrimitiveRangeT<T> high;
-};
-
 // Partitions a range at a split. Without a split, the range is halved by index.
 template <std::floating_point T>
-[[nodiscard]] HalvesT<T> divide(GrowingArray<PrimitiveRefT<T>>& refs,
-                                const PrimitiveRangeT<T>& range, const Split& split) {
+[[nodiscard]] std::array<PrimitiveRangeT<T>, 2>
+divide(GrowingArray<PrimitiveRefT<T>>& refs, const PrimitiveRangeT<T>& range,
+       const Split& split) {
     PrimitiveRangeT<T> low{
         .first = range.first, .last = range.first, .depth = range.depth + 1};
     PrimitiveRangeT<T> high{

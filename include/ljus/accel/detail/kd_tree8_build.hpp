@@ -175,13 +175,6 @@ private:
     Spare* spare_ = nullptr;
 };
 
-/// Refuses more points than a tree can have.
-inline void require_point_count(std::size_t count) {
-    require(count <= std::numeric_limits<std::uint32_t>::max(),
-            "the number of points in a k-d tree", static_cast<long long>(count),
-            "below 2^32");
-}
-
 /// Makes a list of items from points.
 /// \throws std::invalid_argument  if a point is not finite, or if there are too many.
 template <std::floating_point T>

@@ -47,6 +47,7 @@ concept FieldOnRay = requires(const L& line, T t) {
 template <typename L, typename T>
 concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
     { line.slope(t, t) } -> std::same_as<IntervalT<T>>;
+    { line.rounding() } -> std::same_as<T>;
 };
 
 } // namespace detail

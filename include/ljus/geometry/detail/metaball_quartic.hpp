@@ -192,14 +192,6 @@ template <std::floating_point C>
     return line;
 }
 
-template <std::floating_point T>
-struct QuarticRootsT {
-    std::array<T, 4> at{}; ///< The roots: the first `count` elements.
-    std::size_t count = 0; ///< Number of roots.
-    [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
-};
-
 /// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545), for
 /// comparison. Use roots() of a BernsteinT instead.
 ///
@@ -215,7 +207,7 @@ struct QuarticRootsT {
 /// \cost One cosine or cube root, and up to 4 square roots; no loop.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
-[[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
+[[nodiscard]] RootsT<T, 4> quartic_formula(const std::array<T, 5>& c) noexcept {
     const T b = c[3] / c[4], d = c[2] / c[4], e = c[1] / c[4], f = c[0] / c[4];
     const T p = d - T(3) / T(8) * b * b;
     const T q = e - b * d / T(2) + b * b * b / T(8);
@@ -239,15 +231,15 @@ template <std::floating_point T>
     constexpr T nothing = T(1e-9); // Schwarze's value for every quartic
     const auto positive = [](T x) { return std::abs(x) < nothing ? T(0) : x; };
     const T u2 = positive(z * z - r), v2 = positive(T(2) * z - p);
-    QuarticRootsT<T> result;
+    RootsT<T, 4> result;
     if (!(u2 >= T(0) && v2 >= T(0))) return result;
     const T w = std::copysign(std::sqrt(u2), q), v = std::sqrt(v2);
     for (const T sign : {T(-1), T(1)}) {
         const T half = -sign * v / T(2); // of y^2 + sign v y + z - sign w
         const T under = positive(half * half - (z - sign * w));
         if (!(under >= T(0))) continue;
-        result.at[result.count++] = half - std::sqrt(under) - b / T(4);
-        result.at[result.count++] = half + std::sqrt(under) - b / T(4);
+        result.add(half - std::sqrt(under) - b / T(4));
+        result.add(half + std::sqrt(under) - b / T(4));
     }
     return result;
 }
