@@ -32,10 +32,8 @@ struct NearestHitT {
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 
-    /// Accepts a hit if it is nearer than the hit found so far. Of two equally near
-    /// hits, the one on the primitive with the lower index counts. The ray's t_max is
-    /// then set one ulp beyond the hit, so that a primitive at the same t is still
-    /// tested.
+    /// Accepts a hit if it is nearer than the hit found so far. The ray's t_max is then
+    /// set one ulp beyond the hit, so that a primitive at the same t is still tested.
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
@@ -101,8 +99,7 @@ public:
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}
 
-    /// For each slot of the tree, the index of the primitive's box in the span from
-    /// which the tree was built.
+    /// The index of the primitive at each slot.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }

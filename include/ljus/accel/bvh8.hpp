@@ -31,8 +31,7 @@ public:
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(detail::build_bvh(boxes, checked(settings)),
                                   multiple)) {}
-    /// Builds the same tree as the constructor above, but frees the boxes before it
-    /// builds the nodes.
+    /// Builds the same tree, but frees the boxes before it builds the nodes.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(
@@ -59,8 +58,7 @@ public:
                wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Visits the primitives that a ray may hit, nearer nodes first; see
-    /// BvhT::closest().
+    /// See BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
         const auto ask = [&](std::uint32_t slot) {
@@ -70,8 +68,7 @@ public:
         detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
-    /// Whether a test succeeds for at least one of the primitives that a ray may hit;
-    /// see BvhT::any().
+    /// See BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(wide_, ray, each_slot(test), watch);

@@ -22,8 +22,8 @@ namespace ljus {
 /// split at the median of its longest axis, down to leaves of a few points. Each range
 /// has a box, so that a search far from all points ends at once.
 ///
-/// The tree stores positions only. The caller sorts the data of the points into the
-/// tree's order, so that a search reads contiguous memory:
+/// The tree stores positions only. The caller sorts other data into the tree's order,
+/// so that a search reads contiguous memory:
 ///
 ///     std::vector<Vec3> positions;
 ///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
@@ -58,8 +58,7 @@ public:
         for (const std::uint32_t index : point_ids_) points_.push_back(points[index]);
     }
 
-    /// The i-th point of the tree has the index point_ids()[i] in the span from which
-    /// the tree was built.
+    /// For each point of the tree, its index in the span that the tree was built from.
     [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
         return point_ids_;
     }

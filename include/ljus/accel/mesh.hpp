@@ -17,8 +17,7 @@ namespace ljus {
 ///
 /// A mesh is one object: it has one material, can be one light, and is one target for
 /// the photons of the caustics map. The order of a triangle's vertices determines its
-/// outside and the origins of spawned rays. The normals of the vertices affect only the
-/// shading; see vertex_at() and scatter().
+/// outside. The normals of the vertices affect only the shading.
 /// \{
 
 namespace detail {
@@ -42,8 +41,7 @@ template <std::floating_point T, typename Cross>
 } // namespace detail
 
 /// An immutable mesh. In float, a closed mesh with normals takes about 90 bytes per
-/// triangle, including the tree, and below 120 bytes if no vertex is shared. See
-/// bytes().
+/// triangle, including the tree, and below 120 bytes if no vertex is shared.
 template <std::floating_point T>
 class MeshT {
 public:
@@ -91,8 +89,8 @@ public:
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         return detail::triangle_of(data_, part);
     }
-    /// The triangle at a slot of the tree: triangle(tree().primitive_ids()[slot]). A
-    /// TriangleBvh stores its triangles, which saves two reads of distant memory.
+    /// The triangle at a slot of the tree. A TriangleBvh stores its triangles, which
+    /// saves two reads of distant memory.
     [[nodiscard]] TriangleT<T> triangle_at(std::uint32_t slot) const noexcept {
         if constexpr (std::is_same_v<T, float>)
             return tree_.triangle(slot);
@@ -146,10 +144,8 @@ intersect(const RayT<T>& ray, const MeshT<T>& mesh) {
 }
 // [intersect]
 
-/// Whether a ray hits a mesh, for shadow rays. The first triangle that is found to be
-/// hit ends the search.
-/// \return Whether intersect() would return a hit.
-/// \cost Tests of O(log n) triangles on average, fewer than for intersect().
+/// Whether a ray hits a mesh, for shadow rays: whether intersect() would return a hit.
+/// The first triangle that is found to be hit ends the search.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] LJUS_CORE_CLONES bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
@@ -158,8 +154,7 @@ template <typename Compute = void, std::floating_point T>
     });
 }
 
-/// The point of a mesh that a ray hit: position, error bound, and the triangle's
-/// normal.
+/// The point of a mesh that a ray hit, with the triangle's normal.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> surface_point(const MeshT<T>& mesh, const RayT<T>&,
                                              const ShapeHitT<T>& hit) noexcept {
@@ -183,8 +178,8 @@ template <std::floating_point T>
     return Vec3T<T>(glm::normalize(Vec3T<WideT<T>>(n)));
 }
 
-/// The texture coordinates of a hit, interpolated between the vertices. If the mesh has
-/// none, the result is (hit.u, hit.v).
+/// The texture coordinates of a hit, interpolated between the vertices; (hit.u, hit.v)
+/// if the mesh has none.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const MeshT<T>& mesh,
                                            const ShapeHitT<T>& hit,
@@ -219,8 +214,7 @@ texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {
             Vec3T<T>((a.x * e2 - b.x * e1) / area)};
 }
 
-/// Samples a point of a mesh, uniformly over its area. First a triangle is chosen in
-/// proportion to its area, then a point on the triangle.
+/// Samples a point of a mesh, uniformly over its area.
 /// \return The point. Its density is 1 / area per squared scene unit.
 /// \cost O(log n) for n triangles.
 template <std::floating_point T>

@@ -18,7 +18,7 @@ namespace ljus {
 /// \addtogroup kd_tree
 /// \{
 
-/// A point found by a search. Neighbors are ordered by distance.
+/// A point found by a search.
 struct Neighbor {
     double distance2 = 0;    ///< The squared distance.
     std::uint32_t index = 0; ///< Index in the tree's order.
@@ -30,8 +30,8 @@ struct Neighbor {
 namespace detail {
 
 /// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. Otherwise a compiler
-/// could fuse a product with a sum for one caller and not for another, and a point on
-/// the border of a ball would be inside for one of them only.
+/// could fuse a product with a sum for one caller only, and two callers would disagree
+/// on a point on the border of a ball.
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
 #ifdef FP_FAST_FMA
     return std::fma(z, z, std::fma(y, y, x * x));
@@ -89,8 +89,8 @@ struct Nearest {
     double limit2 = 0;         ///< The squared radius of the search.
     std::size_t count = 0;     ///< Number of points so far.
 
-    /// Whether a point at this squared distance would be taken. Once `found` is full,
-    /// the point must be nearer than the farthest one.
+    /// Whether a point at this squared distance is within the radius or, once `found`
+    /// is full, nearer than the farthest one.
     [[nodiscard]] bool reaches(double distance2) const noexcept {
         return count < found.size() ? distance2 <= limit2
                                     : distance2 < found[0].distance2;

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/triangle_bvh.hpp
-/// \brief A wide tree over triangles. A conservative filter tests eight triangles
-/// together. The triangles that it cannot decide are tested one by one.
+/// \brief A wide tree over triangles, which tests eight triangles together.
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/geometry/triangle.hpp"
@@ -98,7 +97,7 @@ template <typename Caller>
 } // namespace detail
 
 /// A wide tree over triangles, with the searches and results of BvhT. It stores the
-/// triangles in its own order, so that a test reads memory that the filter has loaded.
+/// triangles in its own order, so that a test reads what the filter has loaded.
 ///
 ///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
 ///     const NearestHit nearest =

@@ -25,9 +25,8 @@ namespace detail {
 
 inline constexpr int lane_count = 8;
 
-/// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled. g++ would
-/// unroll the loop before it looks for vector instructions, and then would find none.
-/// \param body  Called with an int in [0, 8).
+/// Calls `body(i)` for i from 0 to 7, in a loop that is not unrolled. g++ would unroll
+/// the loop before it looks for vector instructions, and then would find none.
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
 #if defined(__clang__)
@@ -65,13 +64,13 @@ struct alignas(32) Lanes3T {
 };
 using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
-/// Eight truth values: -1, with all bits set, for true, and 0 for false.
+/// Eight truth values.
 struct alignas(32) LaneMask {
-    std::int32_t lane[lane_count]; ///< -1 for true, 0 for false.
+    std::int32_t lane[lane_count]; ///< -1 (all bits set) for true, 0 for false.
 };
 
-/// Packs a mask into an integer with one byte per lane, for take_lane().
-/// \return An integer. The byte of a lane is 1 if the lane is true, and 0 otherwise.
+/// Packs a mask into an integer, for take_lane(). The byte of a lane is 1 if the lane
+/// is true, and 0 otherwise.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
@@ -97,9 +96,9 @@ template <std::floating_point T>
 }
 
 /// The index of the smallest of eight numbers. Numbers that differ only in their last
-/// three bits count as equal. As integers, the bits of numbers >= 0 are ordered like
-/// the numbers. The function replaces the last three bits of each number by the index
-/// of its lane. The smallest integer then contains the index of the smallest number.
+/// three bits count as equal, because the index of the lane replaces these bits. Read
+/// as integers, numbers >= 0 keep their order, so that the smallest integer contains
+/// the index.
 /// \param numbers  The numbers; those in `among` must be >= 0.
 /// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
 /// \param bound    Numbers above `bound` and NaN do not count.

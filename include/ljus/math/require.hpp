@@ -110,8 +110,7 @@ template <typename Value>
 
 } // namespace detail
 
-/// Throws an exception if a condition fails. The message says which value is wrong,
-/// what it is, and what would be right.
+/// Throws an exception if a condition fails.
 /// \param ok     The condition that must hold.
 /// \param what   The name of the value, e.g. "sphere.radius".
 /// \param value  The value, shown in the message.

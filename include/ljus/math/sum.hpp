@@ -30,13 +30,10 @@ template <typename T>
 }
 
 /// The sum of numbers or colours, by pairwise summation: a list is cut into two halves,
-/// and each half is summed in the same way.
-///
-/// Each of n terms passes through at most 16 + log2(n) additions. The rounding error
-/// therefore grows like log n instead of n.
+/// and each half is summed in the same way. Each of n terms passes through at most
+/// 16 + log2(n) additions, so that the rounding error grows like log n instead of n.
 /// \param terms  Anything contiguous: a vector, an array, a span.
 /// \return The sum; 0 for no terms.
-/// \cost One addition per term.
 template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,
 const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noexcept {

@@ -20,14 +20,10 @@ struct Bvh8Ray {
     Vec3 inverse{1};    ///< 1 over the direction, per component; always finite.
     Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
     Vec3 far_shift{0};  ///< The shift of the far planes.
-    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
-    /// first.
-    std::array<std::size_t, 3> near{};
-    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
-    /// last.
-    std::array<std::size_t, 3> far{};
-    float length = 0; ///< The direction's largest absolute component.
-    float last = 0;   ///< The largest t that is searched.
+    std::array<std::size_t, 3> near{}; ///< Near plane per axis, in Bvh8Node::plane.
+    std::array<std::size_t, 3> far{};  ///< Far plane per axis, in Bvh8Node::plane.
+    float length = 0;                  ///< The direction's largest absolute component.
+    float last = 0;                    ///< The largest t that is searched.
     /// Whether products of three lengths, as in conservative_filter(), are finite.
     bool moderate = false;
 };
@@ -61,7 +57,6 @@ struct Bvh8Ray {
         r.far[i] = i + 3 * (1 - back);
     }
     r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
-    // The squares of the direction and of the distance must stay finite.
     constexpr float most = 1e18f;
     return r.length > 1 / most && r.length < most && reach < most &&
            is_finite(r.near_shift) && is_finite(r.far_shift);
@@ -200,15 +195,12 @@ private:
 };
 
 /// The traversal of every search. It tests the eight boxes of a node together and then
-/// visits a child \cite wald2008.
+/// visits a child \cite wald2008. It calls `watch(node)` for each node, and
+/// `leaf(first slot, count, prepared ray)` for each leaf. If `leaf` returns true, the
+/// search ends. If the ray cannot be prepared, `leaf` is called once for all slots,
+/// with a null pointer.
 /// \tparam any  If true, children are visited in any order. If false, nearer children
 ///              come first, and the leaf function shortens the ray.
-/// \param wide   The tree.
-/// \param ray    The ray.
-/// \param leaf   Called as leaf(first slot, count, prepared ray). If it returns true,
-///               the search ends. If the ray cannot be prepared, `leaf` is called once
-///               for all slots, with a null pointer.
-/// \param watch  Called with the index of each visited node.
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
     if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return false;

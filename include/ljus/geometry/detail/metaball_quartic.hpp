@@ -35,10 +35,10 @@ struct BlobT {
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 
-/// A solver. It splits the ray where the ray enters or leaves a blob and where the ray
-/// is nearest to a centre. In each span the field is a quartic, and the first sign
-/// change of this quartic is the hit. The field of a blob rises before the nearest
-/// point and falls after it, so that most spans have at most one sign change.
+/// A solver. It splits the ray where the ray enters or leaves a blob and where it is
+/// nearest to a centre. In each span the field is a quartic, and the first sign change
+/// of a quartic is the hit. The field of a blob rises before the nearest point and
+/// falls after it, so that most spans have at most one sign change.
 struct QuarticPieces {};
 
 /// A solver that finds the roots of the quartics by quartic_formula(), for comparison.
@@ -51,21 +51,20 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// The field of a blob along a ray. The field is \f$ w s^2 \f$ where
-/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere. The members give w, h,
-/// k and m. R is the radius of the blob.
+/// The field of a blob of radius R along a ray. The field is \f$ w s^2 \f$ where
+/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
     C leave = C(0);  ///< The t at which s becomes negative again.
     C middle = C(0); ///< m, the t at which the ray is nearest to the centre.
     C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
-    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D and the radius R.
+    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
     C weight = C(1); ///< w, the weight of the blob.
 };
 
-/// The field of a blob along a ray. As in chord(), the vectors are subtracted before
-/// they are squared, to avoid cancellation.
+/// The field of a blob along a ray. The vectors are subtracted before they are squared,
+/// to avoid cancellation.
 /// \return The strand, in double. Nothing for a miss, for non-finite data, a zero
 ///         direction, or a radius not above 0.
 template <std::floating_point T>
@@ -193,17 +192,17 @@ template <std::floating_point C>
 }
 
 /// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545), for
-/// comparison. Use roots() of a BernsteinT instead.
+/// comparison with roots().
 ///
 /// The polynomial is divided by c[4]. Let b be the new coefficient of x^3. The
 /// substitution \f$ x = y - b/4 \f$ gives \f$ y^4 + p y^2 + q y + r = 0 \f$. A root z
 /// of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8} \f$
 /// turns this equation into a difference of two squares, which is a product of two
-/// quadratics. The steps subtract numbers that may be nearly equal, so that the result
-/// can be inaccurate.
+/// quadratics.
 /// \param c  The coefficients; c[4] is not 0.
-/// \return The roots. At least about half of their digits are correct if the roots are
-///         well separated and c[4] is not small; otherwise they are unreliable.
+/// \return The roots, unordered. At least about half of their digits are correct if the
+///         roots are well separated and c[4] is not small. Otherwise they are
+///         unreliable, because the steps subtract nearly equal numbers.
 /// \cost One cosine or cube root, and up to 4 square roots; no loop.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
