@@ -45,7 +45,7 @@ namespace detail {
 
 } // namespace detail
 
-/// The squared distance of two points in double, with at most three rounding errors. It
+/// The squared distance of two points in double, with at most five rounding errors. It
 /// decides whether a point lies within a ball. For floats no term underflows or
 /// overflows.
 template <std::floating_point T>

@@ -65,7 +65,7 @@ constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept
 
 /// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-53 (double).
-/// \cost Two multiplications and a few shifts.
+/// \cost Three multiplications and a few shifts.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;

@@ -203,7 +203,7 @@ template <std::floating_point C>
 /// \return The roots, unordered. At least about half of their digits are correct if the
 ///         roots are well separated and c[4] is not small. Otherwise they are
 ///         unreliable, because the steps subtract nearly equal numbers.
-/// \cost One cosine or cube root, and up to 4 square roots; no loop.
+/// \cost Two cube roots, or a cosine and its inverse; up to 5 square roots.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
 [[nodiscard]] RootsT<T, 4> quartic_formula(const std::array<T, 5>& c) noexcept {
@@ -300,7 +300,7 @@ template <std::floating_point C>
 /// \report{Section 2.1}
 /// \return The first t where f changes its sign; nothing for a miss.
 /// \cost A ray that meets n blobs has at most 3 n - 1 spans. For each span, n quartics
-///       are added, and first_change() finds at most 10 roots.
+///       are added, and first_change() finds at most 7 roots.
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)
