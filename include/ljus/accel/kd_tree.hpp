@@ -134,7 +134,7 @@ public:
     /// \param found   One element for each point to be found. The elements are filled
     ///                as a heap, so that the first one is the farthest point.
     /// \param wanted  Called with an index in the tree's order. If it returns false,
-    ///                the point is skipped. By default all points are wanted.
+    ///                the point is skipped.
     /// \return The number of points found. Among equally near points the choice is
     ///         arbitrary, but always the same.
     /// \cost On average O(log n) for n points, and some steps per point to be found;

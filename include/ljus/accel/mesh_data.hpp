@@ -47,7 +47,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 void check(const MeshDataT<T>& data) {
     const auto place = [](const char* list, std::size_t i) {
-        return std::string(list).append("[").append(std::to_string(i)).append("]");
+        return detail::join({list, "[", std::to_string(i), "]"});
     };
     const auto count = [](std::size_t n) { return static_cast<long long>(n); };
     require(!data.triangles.empty() && data.triangles.size() < 0xffffffffu,

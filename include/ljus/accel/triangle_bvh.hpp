@@ -98,12 +98,6 @@ template <typename Caller>
 
 /// A wide tree over triangles, with the searches and results of BvhT. It stores the
 /// triangles in its own order, so that a test reads what the filter has loaded.
-///
-///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
-///     const NearestHit nearest =
-///         nearest_hit(tree, ray, [&](std::uint32_t slot, const Ray& rest) {
-///             return intersect<double>(rest, tree.triangle(slot));
-///         });
 /// \cost About 60 bytes per triangle.
 class TriangleBvh {
 public:

@@ -93,9 +93,7 @@ template <std::floating_point T>
 
 /// An integer as text.
 [[nodiscard, gnu::cold]] inline std::string to_text(long long value) {
-    char digits[24];
-    std::snprintf(digits, sizeof digits, "%lld", value);
-    return digits;
+    return std::to_string(value);
 }
 
 namespace detail {

@@ -196,8 +196,7 @@ public:
     }
 
     // Divides the points level by level, in lists, into the ranges of whole subtrees.
-    // Then builds the subtrees in parallel, in arrays. The tree grows while the items
-    // of its subtrees are freed.
+    // Then builds the subtrees in parallel, in arrays, and frees their items.
     [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;

@@ -243,15 +243,13 @@ template <std::floating_point T>
     return result;
 }
 
-/// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a).
+/// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a). No strand
+/// may begin or end between a and b.
 ///
 /// The field of a strand is w s^2 with \f$ s = h - k (t - m)^2 \f$, see StrandT. Let
 /// \f$ \tau_a = a - m \f$ and \f$ \tau_b = b - m \f$. On [a, b] the Bernstein
 /// coefficients of s are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$. The
 /// coefficients of s^2 are sums of products of these.
-/// \param line  The field along the ray.
-/// \param a     Start of the span.
-/// \param b     End of the span. No strand begins or ends between a and b.
 // [quartic]
 template <std::floating_point C>
 [[nodiscard]] BernsteinT<C, 4> quartic(const MetaballLineT<C>& line, C a,
