@@ -322,9 +322,9 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
     Numbers n{5};
     int leaves = 0, chosen = 0;
     for (const BvhSettings& how :
-         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16, .node_cost = 4},
+         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16},
           BvhSettings{.leaf_size = 8, .at_a_time = 8},
-          BvhSettings{.leaf_size = 16, .at_a_time = 4, .node_cost = 0.1f}})
+          BvhSettings{.leaf_size = 16, .at_a_time = 4}})
         for (int round = 0; round < 20; ++round) {
             const auto boxes = some_boxes(n, 100, Vec3(round % 2 ? 1 : 0.2f));
             const Bvh tree(boxes, how);
@@ -342,8 +342,7 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
                     all.insert(all.end(), half.begin(), half.end());
                 }
                 const double best = Plain::best(all, how.at_a_time).cost;
-                const double split =
-                    best + double(how.node_cost) * Plain::half_area(all);
+                const double split = best + Plain::half_area(all);
                 const double whole = Plain::cost(all, how.at_a_time);
                 if (!leaf) CHECK(cost == doctest::Approx(best).epsilon(1e-5));
                 if (all.size() == 1 || std::abs(split - whole) < 1e-4 * whole)
@@ -493,7 +492,6 @@ TEST_CASE("bvh: how a tree is built if nothing is said") {
     const BvhSettings settings;
     CHECK(settings.leaf_size == 4);
     CHECK(settings.at_a_time == 1);
-    CHECK(settings.node_cost == 1);
     CHECK(settings.threads == 0);
     const std::vector<Box> boxes(3, Box{{0, 0, 0}, {1, 1, 1}});
     CHECK_THROWS_WITH_AS(Bvh(boxes, {.leaf_size = 0}),

@@ -14,8 +14,8 @@ namespace ljus {
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-/// A tree with up to eight children per node. It is made from a binary tree, as
-/// described in \ref bvh_collapse.
+/// A tree with up to eight children per node, made from a binary tree
+/// \cite ylitie2017.
 class Bvh8 {
 public:
     /// An empty tree.

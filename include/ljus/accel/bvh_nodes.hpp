@@ -19,7 +19,6 @@ namespace ljus {
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< Largest number of primitives per leaf; at least 1.
     std::uint32_t at_a_time = 1; ///< Number of primitives that one test covers.
-    float node_cost = 1;         ///< Cost of visiting a node, in primitive tests.
     int threads = 0;             ///< Number of threads; 0 for all processors.
 };
 

@@ -13,15 +13,11 @@
 #include "ljus/math/vector.hpp"
 #include "ljus/version.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
-namespace detail {
-
-/// \defgroup lanes Lanes
-/// \brief Loops over eight numbers, which compilers turn into vector instructions.
-/// Compilers do not succeed if the body of a loop is long, chooses between products, or
-/// shifts each lane by a different number of bits.
-/// \{
+// Compilers turn loops over eight numbers into vector instructions. They do not succeed
+// if the body of a loop is long, chooses between products, or shifts each lane by a
+// different number of bits.
 
 inline constexpr int lane_count = 8;
 
@@ -121,7 +117,7 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
 
 /// Hints that `lines` cache lines of 64 bytes, from `address` on, will soon be read.
 /// The hint does not change results. Compilers without such a hint ignore it.
-template <int lines = 1>
+template <int lines>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__) // clang defines it, too
     for (int i = 0; i < lines; ++i)
@@ -129,8 +125,4 @@ inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #endif
 }
 
-/// \}
-
-} // namespace detail
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -14,14 +14,7 @@
 
 #include "ljus/version.hpp"
 
-namespace ljus {
-
-/// \defgroup polynomial Polynomials
-/// \brief Section 2.1: isosurfaces are "treated analytically", as roots of polynomials.
-/// Chapter: \ref ch_metaballs.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 /// A polynomial p of degree N on [0, 1], given by its Bernstein coefficients c_i:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
@@ -197,8 +190,4 @@ template <std::floating_point T, std::size_t N>
     return std::nullopt;
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

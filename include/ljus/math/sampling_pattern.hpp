@@ -11,8 +11,9 @@
 
 namespace ljus {
 
-/// \defgroup stratified Stratified primary rays
-/// \brief Section 3.2: "stratified grid sampling".
+/// \defgroup sampling_pattern Sampling patterns
+/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
+/// \ref ch_first_picture.
 /// \{
 
 namespace detail {
@@ -89,13 +90,6 @@ template <std::floating_point T>
 }
 
 } // namespace detail
-
-/// \}
-
-/// \defgroup sampling_pattern Sampling patterns
-/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
-/// \ref ch_first_picture.
-/// \{
 
 /// How the rays of a pixel are spread over the pixel. Every pattern has exactly the
 /// requested number n of points. Each point alone is uniform over the pixel, so that

@@ -9,13 +9,7 @@
 
 #include "ljus/version.hpp"
 
-namespace ljus {
-
-/// \defgroup sum Sums
-/// \brief A plain sum of 10^8 ones in float stops at 2^24 and loses 83 % of the result.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 template <typename T>
 [[nodiscard]] constexpr T pairwise_sum(const T* first, std::size_t count) noexcept {
@@ -41,8 +35,4 @@ const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noe
     return detail::pairwise_sum(all.data(), all.size());
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

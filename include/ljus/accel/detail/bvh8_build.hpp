@@ -15,11 +15,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup bvh_collapse Collapsing a tree
-/// \brief Turns a tree with two children per node into a tree with up to eight, so that
-/// rays visit fewer nodes. Chapter: \ref ch_bvh.
-/// \{
-
 /// Chooses which nodes of a binary tree become the children of wide nodes. It minimises
 /// the sum of the surface areas of all wide nodes, because the probability that a ray
 /// visits a node is proportional to the node's area \cite ylitie2017.
@@ -205,7 +200,5 @@ template <std::floating_point T>
     wide.primitive_ids = std::vector<std::uint32_t>(wide.primitive_ids);
     return wide;
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -19,10 +19,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup bvh_build Building trees of boxes
-/// \brief Splitting a range of primitives in two. Chapter: \ref ch_bvh.
-/// \{
-
 // A box during construction, stored as the lower bounds and the negated upper bounds.
 // Growing the box is then the same operation in all lanes, which compilers vectorise.
 template <std::floating_point T>
@@ -263,8 +259,9 @@ private:
                                 ? Split{}
                                 : best_split(refs_, range, settings_.at_a_time);
         const double area = range.bounds.half_area();
-        const bool divided_is_better = split.cost + double(settings_.node_cost) * area <
-                                       tests_of(count, settings_.at_a_time) * area;
+        // To visit a node costs as much as one test.
+        const bool divided_is_better =
+            split.cost + area < tests_of(count, settings_.at_a_time) * area;
         if (count == 1 || (count <= settings_.leaf_size && !divided_is_better)) {
             nodes[node].first = range.first;
             nodes[node].count = count;
@@ -322,7 +319,5 @@ template <std::floating_point T>
     std::vector<BoxT<T>>().swap(boxes);
     return builder.build();
 }
-
-/// \}
 
 } // namespace ljus::detail

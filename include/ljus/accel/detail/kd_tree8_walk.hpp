@@ -257,7 +257,6 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
     const KdTree8Shape& shape = tree.shape;
     found.here.clear();
     found.blocks.clear();
-    if (!(radius >= T(0))) return;
     for (std::uint32_t ball = 0; ball < balls; ++ball) found.here.push_back({ball, 0});
     for (int level = 0; level < shape.levels; ++level) {
         const std::uint32_t all = level == 0 ? (1u << shape.root_children()) - 1 : 255u;
