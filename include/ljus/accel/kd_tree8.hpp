@@ -19,11 +19,10 @@ namespace detail {
 /// Eight points, some of which a search has found.
 template <std::floating_point T>
 struct FoundBlockT {
-    std::size_t first = 0;   ///< Index of the first point in the tree's order.
-    std::uint32_t found = 0; ///< Bit i: whether point i was found.
-    const detail::Lanes3T<T>&
-        points;                  ///< Positions; NaN beyond the last point of the tree.
-    detail::LanesT<T> distance2; ///< Squared distances; may be infinite.
+    std::size_t first = 0;    ///< Index of the first point in the tree's order.
+    std::uint32_t found = 0;  ///< Bit i: whether point i was found.
+    const Lanes3T<T>& points; ///< Positions; NaN beyond the last point of the tree.
+    LanesT<T> distance2;      ///< Squared distances; may be infinite.
 };
 
 } // namespace detail

@@ -73,7 +73,7 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 32; ++i) // branches would be unpredictable
-        bits ^= detail::sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
+        bits ^= sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
     return bits;
 }
 

@@ -32,7 +32,7 @@ template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,
 const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noexcept {
     const std::span<const typename Terms::value_type> all(terms);
-    return detail::pairwise_sum(all.data(), all.size());
+    return pairwise_sum(all.data(), all.size());
 }
 
 } // namespace ljus::detail
