@@ -285,23 +285,24 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
             // The two halves are what was counted, each box once.
             auto sorted = refs;
             const auto halves = detail::divide(sorted, range, found);
-            REQUIRE(halves.low.first == 0);
-            REQUIRE(halves.low.last == halves.high.first);
-            REQUIRE(halves.high.last == refs.size());
-            CHECK(halves.low.depth == 1);
-            CHECK(halves.high.depth == 1);
+            const auto &low = halves[0], &high = halves[1];
+            REQUIRE(low.first == 0);
+            REQUIRE(low.last == high.first);
+            REQUIRE(high.last == refs.size());
+            CHECK(low.depth == 1);
+            CHECK(high.depth == 1);
             std::vector<Box> lower, upper;
             std::vector<int> seen(refs.size());
             for (std::uint32_t i = 0; i < refs.size(); ++i) {
                 ++seen[sorted[i].id];
-                (i < halves.low.last ? lower : upper).push_back(boxes[sorted[i].id]);
+                (i < low.last ? lower : upper).push_back(boxes[sorted[i].id]);
             }
             for (const int times : seen) CHECK(times == 1);
             CHECK(Plain::cost(lower, at_a_time) + Plain::cost(upper, at_a_time) ==
                   doctest::Approx(right.cost).epsilon(1e-5));
-            CHECK(halves.low.bounds.half_area() ==
+            CHECK(low.bounds.half_area() ==
                   doctest::Approx(Plain::half_area(lower)).epsilon(1e-5));
-            CHECK(halves.high.bounds.half_area() ==
+            CHECK(high.bounds.half_area() ==
                   doctest::Approx(Plain::half_area(upper)).epsilon(1e-5));
         }
     }
@@ -321,9 +322,9 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
     Numbers n{5};
     int leaves = 0, chosen = 0;
     for (const BvhSettings& how :
-         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16, .node_cost = 4},
+         {BvhSettings{.leaf_size = 4}, BvhSettings{.leaf_size = 16},
           BvhSettings{.leaf_size = 8, .at_a_time = 8},
-          BvhSettings{.leaf_size = 16, .at_a_time = 4, .node_cost = 0.1f}})
+          BvhSettings{.leaf_size = 16, .at_a_time = 4}})
         for (int round = 0; round < 20; ++round) {
             const auto boxes = some_boxes(n, 100, Vec3(round % 2 ? 1 : 0.2f));
             const Bvh tree(boxes, how);
@@ -341,8 +342,7 @@ TEST_CASE("bvh: each range is split where that is cheaper, and nowhere else") {
                     all.insert(all.end(), half.begin(), half.end());
                 }
                 const double best = Plain::best(all, how.at_a_time).cost;
-                const double split =
-                    best + double(how.node_cost) * Plain::half_area(all);
+                const double split = best + Plain::half_area(all);
                 const double whole = Plain::cost(all, how.at_a_time);
                 if (!leaf) CHECK(cost == doctest::Approx(best).epsilon(1e-5));
                 if (all.size() == 1 || std::abs(split - whole) < 1e-4 * whole)
@@ -492,7 +492,6 @@ TEST_CASE("bvh: how a tree is built if nothing is said") {
     const BvhSettings settings;
     CHECK(settings.leaf_size == 4);
     CHECK(settings.at_a_time == 1);
-    CHECK(settings.node_cost == 1);
     CHECK(settings.threads == 0);
     const std::vector<Box> boxes(3, Box{{0, 0, 0}, {1, 1, 1}});
     CHECK_THROWS_WITH_AS(Bvh(boxes, {.leaf_size = 0}),

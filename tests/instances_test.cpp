@@ -301,7 +301,7 @@ TEST_CASE("instances: points are uniform over the area in the scene") {
     for (int i = 0; i < count; ++i) {
         const Vec2 u{(float(i) + 0.5f) / count, float(n.next())};
         const SurfacePoint p = sample_area(instance, u, sums);
-        const auto part = detail::choose_part(sums, u.x).part;
+        const auto part = std::uint32_t(detail::choose_interval(sums, u.x).index);
         ++found[part];
         mean += glm::dvec3(p.position) / double(count);
         const Triangle triangle = instance.triangle(part);

@@ -143,9 +143,10 @@ TEST_CASE("kd_tree8: many balls at once find what each of them finds alone") {
                     if (n > 0) centers[3] = points[n / 2];
                 }
                 std::vector<std::size_t> told; // the blocks that were announced
-                tree.find_in_balls(
-                    balls, [&](std::size_t i) -> const Vec3& { return centers[i]; },
-                    radius, [&](std::size_t block) { told.push_back(block); }, found);
+                ljus::detail::find_in_balls(
+                    tree.parts(), balls,
+                    [&](std::size_t i) -> const Vec3& { return centers[i]; }, radius,
+                    [&](std::size_t block) { told.push_back(block); }, found);
                 std::size_t at = 0;
                 for (std::uint32_t ball = 0; ball < balls; ++ball)
                     tree.visit_blocks(centers[ball], radius, [&](const auto& block) {

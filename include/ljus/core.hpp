@@ -51,8 +51,6 @@ LJUS_CORE_EXTERN template detail::BvhNodesT<double>
 detail::build_bvh(std::span<const BoxT<double>>, const BvhSettings&);
 LJUS_CORE_EXTERN template detail::Bvh8Nodes
 detail::make_bvh8(const detail::BvhNodesT<float>&, std::uint32_t);
-LJUS_CORE_EXTERN template Bvh8::Bvh8(const std::vector<Box>&, const BvhSettings&,
-                                     std::uint32_t);
 LJUS_CORE_EXTERN template KdTree8T<float>::KdTree8T(std::span<const Vec3>, int);
 LJUS_CORE_EXTERN template std::optional<ShapeHitT<float>> intersect(const Ray&,
                                                                     const Mesh&);

@@ -24,8 +24,8 @@ ljus_break_it(NAME mesh-normal-side HEADER accel/mesh.hpp TEST mesh
 
 # Each triangle as often as any other, whatever its size.
 ljus_break_it(NAME mesh-area HEADER accel/mesh.hpp TEST mesh
-    FROM "area_up_to_.push_back(area)"
-    TO   "area_up_to_.push_back(double(i + 1))"
+    FROM "sums.push_back(area)"
+    TO   "sums.push_back(double(i + 1))"
     CASES "mesh: points are uniform*")
 
 # What the choice of the triangle left of u is not stretched again.

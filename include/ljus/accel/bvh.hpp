@@ -32,10 +32,8 @@ struct NearestHitT {
     bool found = false;     ///< Whether there is a hit.
     std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
 
-    /// Accepts a hit if it is nearer than the hit found so far. Of two equally near
-    /// hits, the one on the primitive with the lower index counts. The ray's t_max is
-    /// then set one ulp beyond the hit, so that a primitive at the same t is still
-    /// tested.
+    /// Accepts a hit if it is nearer than the hit found so far. The ray's t_max is then
+    /// set one ulp beyond the hit, so that a primitive at the same t is still tested.
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
@@ -90,19 +88,15 @@ public:
     BvhT() = default;
 
     /// Builds the tree from the top, by the surface area heuristic.
-    /// \param boxes     The boxes of fewer than 2^31 primitives. Boxes may be equal or
-    ///                  flat.
-    /// \param settings  The settings. The tree does not depend on the number of
-    ///                  threads.
-    /// \throws std::invalid_argument  if a box is not finite, or if there are too many
-    ///         boxes.
+    /// \param boxes     Boxes of fewer than 2^31 primitives; they may be equal or flat.
+    /// \param settings  The tree does not depend on the number of threads.
+    /// \throws std::invalid_argument  if a box is not finite, or if there are too many.
     /// \cost O(n log n) for n boxes; in float at most 68 bytes per box, and 36 more
     ///       during the build.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})
         : tree_(detail::build_bvh(boxes, settings)) {}
 
-    /// For each slot of the tree, the index of the primitive's box in the span from
-    /// which the tree was built.
+    /// The index of the primitive at each slot.
     [[nodiscard]] const std::vector<std::uint32_t>& primitive_ids() const noexcept {
         return tree_.primitive_ids;
     }

@@ -14,8 +14,8 @@ namespace ljus {
 /// \cite wald2008. Chapter: \ref ch_bvh.
 /// \{
 
-/// A tree with up to eight children per node. It is made from a binary tree, as
-/// described in \ref bvh_collapse.
+/// A tree with up to eight children per node, made from a binary tree
+/// \cite ylitie2017.
 class Bvh8 {
 public:
     /// An empty tree.
@@ -27,16 +27,11 @@ public:
     /// \param multiple  The first slot of each leaf is a multiple of this number.
     ///                  Unused slots between leaves are padding.
     /// \throws std::invalid_argument  as the constructor of BvhT.
-    template <typename Boxes>
-    requires std::convertible_to<const Boxes&, std::span<const Box>>
-    explicit Bvh8(const Boxes& boxes, const BvhSettings& settings = {},
-                  std::uint32_t multiple = 1) {
-        wide_ = detail::make_bvh8(
-            detail::build_bvh(std::span<const Box>(boxes), checked(settings)),
-            multiple);
-    }
-    /// Builds the same tree as the constructor above, but frees the boxes before it
-    /// builds the nodes.
+    explicit Bvh8(std::span<const Box> boxes, const BvhSettings& settings = {},
+                  std::uint32_t multiple = 1)
+        : wide_(detail::make_bvh8(detail::build_bvh(boxes, checked(settings)),
+                                  multiple)) {}
+    /// Builds the same tree, but frees the boxes before it builds the nodes.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(
@@ -63,8 +58,7 @@ public:
                wide_.primitive_ids.capacity() * 4;
     }
 
-    /// Visits the primitives that a ray may hit, nearer nodes first; see
-    /// BvhT::closest().
+    /// See BvhT::closest().
     template <typename Test, typename Watch = NoTrace>
     void closest(Ray ray, Test&& test, Watch&& watch = {}) const {
         const auto ask = [&](std::uint32_t slot) {
@@ -74,8 +68,7 @@ public:
         detail::walk<false>(wide_, ray, each_slot(ask), watch);
     }
 
-    /// Whether a test succeeds for at least one of the primitives that a ray may hit;
-    /// see BvhT::any().
+    /// See BvhT::any().
     template <typename Test, typename Watch = NoTrace>
     [[nodiscard]] bool any(const Ray& ray, Test&& test, Watch&& watch = {}) const {
         return detail::walk<true>(wide_, ray, each_slot(test), watch);

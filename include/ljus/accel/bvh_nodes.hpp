@@ -19,7 +19,6 @@ namespace ljus {
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< Largest number of primitives per leaf; at least 1.
     std::uint32_t at_a_time = 1; ///< Number of primitives that one test covers.
-    float node_cost = 1;         ///< Cost of visiting a node, in primitive tests.
     int threads = 0;             ///< Number of threads; 0 for all processors.
 };
 
@@ -37,16 +36,16 @@ struct BvhNodeT {
 // [tree node]
 static_assert(sizeof(BvhNodeT<float>) == 32);
 
-/// A tree of boxes: its nodes, the root first, and the primitives in the order of the
-/// leaves.
+/// A tree of boxes.
 template <std::floating_point T>
 struct BvhNodesT {
-    GrowingArray<BvhNodeT<T>> nodes{}; ///< The nodes; none in an empty tree.
-    std::vector<std::uint32_t>
-        primitive_ids{}; ///< primitive_ids[slot] is the index of a primitive.
+    /// The nodes, the root first; none in an empty tree.
+    GrowingArray<BvhNodeT<T>> nodes{};
+    /// The index of the primitive at each slot, in the order of the leaves.
+    std::vector<std::uint32_t> primitive_ids{};
 };
 
-/// The largest depth of a tree, and so the largest size of a traversal's stack.
+/// The largest depth of a tree, and so of a traversal's stack.
 inline constexpr int bvh_depth = 64;
 
 } // namespace detail

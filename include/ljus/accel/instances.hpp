@@ -42,28 +42,17 @@ template <std::floating_point T>
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// For each triangle of a mesh, the sum of the areas in the scene up to and including
-/// that triangle.
+/// The sums of summed_areas(), for the areas in the scene.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {
     using Wide = Vec3T<WideT<T>>;
     const AffineT<WideT<T>> map(place);
-    std::vector<double> sums;
-    sums.reserve(mesh.size());
-    double area = 0;
-    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-        const TriangleT<T> local = mesh.triangle(i);
-        if (has_area(local)) {
-            const Wide v1(local.v1);
-            area += double(glm::length(
-                        glm::cross(transform_vector(map, Wide(local.v2) - v1),
-                                   transform_vector(map, Wide(local.v3) - v1)))) /
-                    2;
-        }
-        sums.push_back(area);
-    }
-    return sums;
+    return summed_areas(mesh.data(), [&](const TriangleT<T>& local) {
+        const Wide v1(local.v1);
+        return glm::cross(transform_vector(map, Wide(local.v2) - v1),
+                          transform_vector(map, Wide(local.v3) - v1));
+    });
 }
 
 } // namespace detail
@@ -139,9 +128,8 @@ public:
     }
     /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
-    /// The triangle with the index `part`, transformed to the scene and rounded to T.
-    /// If the map mirrors, the second and the third vertex are exchanged, so that the
-    /// triangle faces outwards.
+    /// The triangle with the index `part` in the scene. If the map mirrors, the second
+    /// and the third vertex are exchanged, so that the triangle faces outwards.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         const TriangleT<T> local = mesh().triangle(part);
         const AffineT<Wide> wide(place_);
@@ -190,14 +178,11 @@ template <std::floating_point T>
 }
 // [ray_at_mesh]
 
-/// Transforms a point of the mesh to the scene.
+/// Transforms a point of the mesh, on the triangle with the index `part`, to the scene.
 ///
 /// The error of the result includes the rounding of a ray that leaves the point. When
 /// this ray is transformed to the space of the mesh, its origin and its direction are
 /// rounded, and the inverse map is inexact.
-/// \param instance  The instance.
-/// \param part      The index of the triangle.
-/// \param local     The point on the mesh; its normal is not used.
 // [placed_point]
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> placed_point(const InstanceT<T>& instance,
@@ -228,8 +213,7 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The nearest hit of a ray on an instance. The ray is transformed into the space of
-/// the mesh; t is the same in both spaces.
+/// The nearest hit of a ray on an instance.
 /// \cost That of intersect() for the mesh, and 18 multiplications.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>> intersect(const RayT<T>& ray,
@@ -290,8 +274,8 @@ texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept
 
 /// For each triangle, the sum of the areas in the scene up to and including that
 /// triangle. A lamp keeps these sums for sample_area().
-/// \return The sums. Empty if the map stretches all directions by the same factor;
-///         sample_area() then uses the sums of the mesh.
+/// \return The sums. Empty if the map stretches all directions by the same factor:
+///         then the sums of the mesh serve.
 /// \cost O(n) time for n triangles, and 8 bytes per triangle.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> area_sums(const InstanceT<T>& instance) {
@@ -305,18 +289,17 @@ template <std::floating_point T>
     return instance.area();
 }
 
-/// Samples a point of an instance, uniformly over its area in the scene.
-/// \param instance  The instance.
-/// \param u         Point of the unit square.
-/// \param sums      The result of area_sums().
+/// Samples a point of an instance, uniformly over its area in the scene. `sums` is the
+/// result of area_sums().
 /// \return The point. Its density is 1 / area per squared scene unit.
 /// \cost O(log n) for n triangles.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,
                                            const Vec2T<T>& u,
                                            const std::vector<double>& sums) noexcept {
-    const auto [part, left] =
-        detail::choose_part(sums.empty() ? instance.mesh().area_up_to() : sums, u.x);
+    const auto [chosen, left] = detail::choose_interval(
+        sums.empty() ? instance.mesh().area_up_to() : sums, u.x);
+    const auto part = static_cast<std::uint32_t>(chosen);
     return detail::placed_point(
         instance, part,
         sample_area(instance.mesh().triangle(part), Vec2T<T>{left, u.y}, Vec3T<T>(0)));
@@ -348,9 +331,8 @@ template <std::floating_point T>
     return {point, pdf};
 }
 
-/// A box around an instance. It is the intersection of two boxes: one around the
-/// transformed bounding box of the mesh, and one around the ellipsoid into which the
-/// map turns the bounding sphere of the mesh.
+/// A box around an instance: the intersection of a box around the transformed bounding
+/// box of the mesh with a box around the transformed bounding sphere, an ellipsoid.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
     using Wide = Vec3T<WideT<T>>;

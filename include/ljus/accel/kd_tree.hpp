@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "ljus/accel/neighbor.hpp"
-#include "ljus/math/require.hpp"
 
 namespace ljus {
 
@@ -23,8 +22,8 @@ namespace ljus {
 /// split at the median of its longest axis, down to leaves of a few points. Each range
 /// has a box, so that a search far from all points ends at once.
 ///
-/// The tree stores positions only. The caller sorts the data of the points into the
-/// tree's order, so that a search reads contiguous memory:
+/// The tree stores positions only. The caller sorts other data into the tree's order,
+/// so that a search reads contiguous memory:
 ///
 ///     std::vector<Vec3> positions;
 ///     for (const MyPhoton& photon : photons) positions.push_back(photon.position);
@@ -50,9 +49,7 @@ public:
     /// \cost O(n log n) for any n points. In float a point takes 16 bytes, and 3 to 12
     ///       more for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
-        require(points.size() <= std::numeric_limits<std::uint32_t>::max(),
-                "the number of points in a k-d tree",
-                static_cast<long long>(points.size()), "below 2^32");
+        detail::require_point_count(points.size());
         for (const Vec3T<T>& point : points) {
             require_finite("a point of the k-d tree", point);
             point_ids_.push_back(static_cast<std::uint32_t>(point_ids_.size()));
@@ -61,8 +58,7 @@ public:
         for (const std::uint32_t index : point_ids_) points_.push_back(points[index]);
     }
 
-    /// The i-th point of the tree has the index point_ids()[i] in the span from which
-    /// the tree was built.
+    /// For each point of the tree, its index in the span that the tree was built from.
     [[nodiscard]] const std::vector<std::uint32_t>& point_ids() const noexcept {
         return point_ids_;
     }
@@ -138,7 +134,7 @@ public:
     /// \param found   One element for each point to be found. The elements are filled
     ///                as a heap, so that the first one is the farthest point.
     /// \param wanted  Called with an index in the tree's order. If it returns false,
-    ///                the point is skipped. By default all points are wanted.
+    ///                the point is skipped.
     /// \return The number of points found. Among equally near points the choice is
     ///         arbitrary, but always the same.
     /// \cost On average O(log n) for n points, and some steps per point to be found;

@@ -19,26 +19,22 @@ namespace detail {
 /// Eight points, some of which a search has found.
 template <std::floating_point T>
 struct FoundBlockT {
-    std::size_t first = 0;   ///< Index of the first point in the tree's order.
-    std::uint32_t found = 0; ///< Bit i: whether point i was found.
-    const detail::Lanes3T<T>&
-        points;                  ///< Positions; NaN beyond the last point of the tree.
-    detail::LanesT<T> distance2; ///< Squared distances; may be infinite.
+    std::size_t first = 0;    ///< Index of the first point in the tree's order.
+    std::uint32_t found = 0;  ///< Bit i: whether point i was found.
+    const Lanes3T<T>& points; ///< Positions; NaN beyond the last point of the tree.
+    LanesT<T> distance2;      ///< Squared distances; may be infinite.
 };
 
 } // namespace detail
 
-/// The fast counterpart of KdTreeT, with the same results: a k-d tree without pointers
-/// \cite bentley1975. Each node has eight tight boxes. Each leaf has 16 to 32 points,
-/// stored in blocks of eight.
+/// The fast counterpart of KdTreeT, with the same results. Each node has eight tight
+/// boxes. Each leaf has 16 to 32 points, stored in blocks of eight.
 ///
 /// Distances are computed in T, eight at a time. Where the precision of T cannot tell
 /// whether a point is within the limit of a search, the distance of that point is
 /// computed again in double; see detail::ReachT.
 ///
-/// The class has the searches of KdTreeT. In addition it has visit_blocks(), for
-/// callers that process eight points at a time. Searches are const, allocate nothing,
-/// and may run in parallel.
+/// Searches are const, allocate nothing, and may run in parallel.
 template <std::floating_point T>
 class KdTree8T {
 public:
@@ -65,8 +61,7 @@ public:
     /// Makes a tree from data that were built or loaded.
     explicit KdTree8T(detail::KdTree8PartsT<T> parts) : parts_(std::move(parts)) {}
 
-    /// The i-th point of the tree has the index point_ids()[i] in the span from which
-    /// the tree was built.
+    /// For each point of the tree, its index in the span that the tree was built from.
     [[nodiscard]] std::span<const std::uint32_t> point_ids() const noexcept {
         return parts_.order.span();
     }
@@ -83,7 +78,7 @@ public:
 
     /// The point at an index in the tree's order, below size().
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
-        return parts_.blocks[index / 8][index % 8];
+        return parts_.point(index);
     }
 
     /// The number of points.
@@ -93,10 +88,8 @@ public:
     [[nodiscard]] int halvings() const noexcept { return parts_.shape.halvings; }
 
     /// The index of the first point of a range, in the tree's order. After `depth`
-    /// halvings there are 2^depth ranges. A range ends where the next one begins.
-    /// \param depth   The number of halvings, 0 to halvings().
-    /// \param number  The number of the range, 0 to 2^depth. For 2^depth the result is
-    ///                size().
+    /// halvings, at most halvings(), there are 2^depth ranges. A range ends where the
+    /// next one begins. For the range number 2^depth, the result is size().
     [[nodiscard]] std::size_t first_point(int depth,
                                           std::uint64_t number) const noexcept {
         return std::min(size(),
@@ -110,11 +103,7 @@ public:
     }
 
     /// Calls `visit(found)` with a FoundBlockT for each block of eight points of which
-    /// some are within a closed ball.
-    /// \param center  Centre of the ball.
-    /// \param radius  The radius, not squared; it may be infinite. If the radius is
-    ///                negative or NaN, or if the centre is NaN, the ball is empty.
-    /// \param visit   Takes the block.
+    /// some are within a closed ball, given as for KdTreeT::visit_within().
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -127,16 +116,7 @@ public:
         });
     }
 
-    /// Finds the blocks of visit_blocks() for many balls of one radius; see
-    /// detail::find_in_balls().
-    template <typename Center, typename Expect>
-    void find_in_balls(std::size_t balls, Center center, T radius, Expect expect,
-                       detail::BallBlocks& found) const {
-        detail::find_in_balls(parts_, balls, center, radius, expect, found);
-    }
-    /// Calls `visit(index, distance2)` for each point within a closed ball, with the
-    /// point's index in the tree's order and its squared distance. The ball is given as
-    /// for visit_blocks().
+    /// See KdTreeT::visit_within().
     template <typename Visit>
     void visit_within(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {
@@ -149,14 +129,12 @@ public:
         });
     }
 
-    /// Whether any point lies within a closed ball, given as for visit_blocks().
+    /// See KdTreeT::any_within().
     [[nodiscard]] bool any_within(const Vec3T<T>& center, T radius) const {
         return within(center, radius, [](std::size_t, std::uint32_t) { return true; });
     }
 
-    /// The nearest point within a closed ball, given as for visit_blocks().
-    /// \return The nearest point; nothing if the ball has no point. Among equally near
-    ///         points the choice is arbitrary, but always the same.
+    /// See KdTreeT::nearest().
     [[nodiscard]] std::optional<Neighbor>
     nearest(const Vec3T<T>& center,
             T radius = std::numeric_limits<T>::infinity()) const {
@@ -166,19 +144,10 @@ public:
         return results.best;
     }
 
-    /// The k nearest points within a closed ball, where k is found.size().
-    /// \param center  Centre of the ball.
-    /// \param radius  As for visit_blocks().
-    /// \param found   One element for each point to be found. The first element is the
-    ///                farthest point, and the others are unsorted.
-    /// \param wanted  Called with an index in the tree's order. If it returns false,
-    ///                the point is skipped. By default all points are wanted.
+    /// See KdTreeT::nearest(). In `found` the first point is the farthest, and the
+    /// others are unsorted.
     /// \tparam Most  An upper bound on found.size(). If it is at most 512, less code is
     ///               compiled.
-    /// \return The number of points found. Among equally near points the choice is
-    ///         arbitrary, but always the same.
-    /// \cost On average O(log n) for n points, and some steps per point to be found;
-    ///       more if `wanted` skips most of the points nearby.
     template <std::size_t Most = std::numeric_limits<std::size_t>::max(),
               typename Wanted = detail::AnyPoint>
     [[nodiscard]] std::size_t nearest(const Vec3T<T>& center, T radius,

@@ -47,24 +47,24 @@ template <std::floating_point T>
 template <std::floating_point T>
 void check(const MeshDataT<T>& data) {
     const auto place = [](const char* list, std::size_t i) {
-        return std::string(list).append("[").append(std::to_string(i)).append("]");
+        return detail::join({list, "[", std::to_string(i), "]"});
     };
     const auto count = [](std::size_t n) { return static_cast<long long>(n); };
     require(!data.triangles.empty() && data.triangles.size() < 0xffffffffu,
             "the number of a mesh's triangles", count(data.triangles.size()),
             "at least 1 and below 2^32 - 1");
-    require(data.normals.empty() || data.normals.size() == data.positions.size(),
-            "the number of a mesh's normals", count(data.normals.size()),
-            "0 or that of its positions, " + std::to_string(data.positions.size()));
-    require(data.uv.empty() || data.uv.size() == data.positions.size(),
-            "the number of a mesh's texture coordinates", count(data.uv.size()),
-            "0 or that of its positions, " + std::to_string(data.positions.size()));
-    for (std::size_t i = 0; i < data.positions.size(); ++i)
-        if (!is_finite(data.positions[i]))
-            require_finite(place("mesh.positions", i), data.positions[i]);
-    for (std::size_t i = 0; i < data.normals.size(); ++i)
-        if (!is_finite(data.normals[i]))
-            require_finite(place("mesh.normals", i), data.normals[i]);
+    const auto one_per_vertex = [&](const char* what, std::size_t n) {
+        require(n == 0 || n == data.positions.size(), what, count(n),
+                "0 or that of its positions, " + std::to_string(data.positions.size()));
+    };
+    one_per_vertex("the number of a mesh's normals", data.normals.size());
+    one_per_vertex("the number of a mesh's texture coordinates", data.uv.size());
+    const auto all_finite = [&](const char* list, const std::vector<Vec3T<T>>& values) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!is_finite(values[i])) require_finite(place(list, i), values[i]);
+    };
+    all_finite("mesh.positions", data.positions);
+    all_finite("mesh.normals", data.normals);
     for (std::size_t i = 0; i < data.uv.size(); ++i)
         if (!std::isfinite(data.uv[i].x) || !std::isfinite(data.uv[i].y))
             require_finite(place("mesh.uv", i), Vec3T<T>{data.uv[i], T(0)});
@@ -79,9 +79,8 @@ void check(const MeshDataT<T>& data) {
 /// Sets the normal of each vertex to the mean of the normals of its triangles, weighted
 /// by their angles at the vertex. This mean does not depend on how flat regions are
 /// divided into triangles \cite thurmer1998. Vertices with different indices stay
-/// separate, even at the same position, so that edges between them stay sharp.
-/// \param data  The data, whose old normals are replaced. A vertex that belongs to no
-///              triangle with an area gets (0, 0, 0), which counts as no normal.
+/// separate, even at the same position, so that edges between them stay sharp. A vertex
+/// that belongs to no triangle with an area gets (0, 0, 0), which counts as no normal.
 /// \cost O(n) for n triangles.
 template <std::floating_point T>
 void smooth_normals(MeshDataT<T>& data) {

@@ -8,16 +8,17 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
-#include "ljus/math/vector.hpp"
+#include "ljus/math/require.hpp"
 
 namespace ljus {
 
 /// \addtogroup kd_tree
 /// \{
 
-/// A point found by a search. Neighbors are ordered by distance.
+/// A point found by a search.
 struct Neighbor {
     double distance2 = 0;    ///< The squared distance.
     std::uint32_t index = 0; ///< Index in the tree's order.
@@ -29,8 +30,8 @@ struct Neighbor {
 namespace detail {
 
 /// \f$ x^2 + y^2 + z^2 \f$, rounded in the same way everywhere. Otherwise a compiler
-/// could fuse a product with a sum for one caller and not for another, and a point on
-/// the border of a ball would be inside for one of them only.
+/// could fuse a product with a sum for one caller only, and two callers would disagree
+/// on a point on the border of a ball.
 [[nodiscard]] inline double sum_of_squares(double x, double y, double z) noexcept {
 #ifdef FP_FAST_FMA
     return std::fma(z, z, std::fma(y, y, x * x));
@@ -44,7 +45,7 @@ namespace detail {
 
 } // namespace detail
 
-/// The squared distance of two points in double, with at most three rounding errors. It
+/// The squared distance of two points in double, with at most five rounding errors. It
 /// decides whether a point lies within a ball. For floats no term underflows or
 /// overflows.
 template <std::floating_point T>
@@ -88,8 +89,8 @@ struct Nearest {
     double limit2 = 0;         ///< The squared radius of the search.
     std::size_t count = 0;     ///< Number of points so far.
 
-    /// Whether a point at this squared distance would be taken. Once `found` is full,
-    /// the point must be nearer than the farthest one.
+    /// Whether a point at this squared distance is within the radius or, once `found`
+    /// is full, nearer than the farthest one.
     [[nodiscard]] bool reaches(double distance2) const noexcept {
         return count < found.size() ? distance2 <= limit2
                                     : distance2 < found[0].distance2;
@@ -110,6 +111,13 @@ struct Nearest {
 };
 
 namespace detail {
+
+/// Refuses more points than a tree can have.
+inline void require_point_count(std::size_t count) {
+    require(count <= std::numeric_limits<std::uint32_t>::max(),
+            "the number of points in a k-d tree", static_cast<long long>(count),
+            "below 2^32");
+}
 
 /// The default filter of a search: accepts every point.
 struct AnyPoint {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/triangle_bvh.hpp
-/// \brief A wide tree over triangles. A conservative filter tests eight triangles
-/// together. The triangles that it cannot decide are tested one by one.
+/// \brief A wide tree over triangles, which tests eight triangles together.
 
 #include "ljus/accel/bvh8.hpp"
 #include "ljus/geometry/triangle.hpp"
@@ -98,13 +97,7 @@ template <typename Caller>
 } // namespace detail
 
 /// A wide tree over triangles, with the searches and results of BvhT. It stores the
-/// triangles in its own order, so that a test reads memory that the filter has loaded.
-///
-///     const TriangleBvh tree(count, [&](std::uint32_t i) { return triangles[i]; });
-///     const NearestHit nearest =
-///         nearest_hit(tree, ray, [&](std::uint32_t slot, const Ray& rest) {
-///             return intersect<double>(rest, tree.triangle(slot));
-///         });
+/// triangles in its own order, so that a test reads what the filter has loaded.
 /// \cost About 60 bytes per triangle.
 class TriangleBvh {
 public:
@@ -173,30 +166,22 @@ public:
     }
 
 private:
-    // The leaf function of both traversals.
+    // A leaf function for detail::walk() that tests the triangles that pass the filter.
     template <bool definite_ends, typename Ask>
-    struct FilteredLeaf {
-        const TriangleBvh& of;
-        const Ray& ray;
-        Ask& ask;
-
-        bool operator()(std::uint32_t first, std::uint32_t count,
-                        const detail::Bvh8Ray* ready) const {
+    auto filtered_leaf(const Ray& ray, Ask& ask) const {
+        return [this, &ray, &ask](std::uint32_t first, std::uint32_t count,
+                                  const detail::Bvh8Ray* ready) {
             if (ready == nullptr || !ready->moderate)
-                return of.tree_.each_slot(ask)(first, count, ready);
+                return tree_.each_slot(ask)(first, count, ready);
             detail::FilteredTriangles found = detail::conservative_filter<Ask>(
-                of.blocks_[first / detail::lane_count], *ready, ray);
+                blocks_[first / detail::lane_count], *ready, ray);
             if (definite_ends && found.definite != 0) return true;
             while (found.possible != 0)
                 if (ask(first +
                         static_cast<std::uint32_t>(detail::take_lane(found.possible))))
                     return true;
             return false;
-        }
-    };
-    template <bool definite_ends, typename Ask>
-    FilteredLeaf<definite_ends, Ask> filtered_leaf(const Ray& ray, Ask& ask) const {
-        return {*this, ray, ask};
+        };
     }
 
     static void put(detail::TriangleLanes& block, std::size_t lane,

@@ -18,10 +18,9 @@ namespace ljus {
 /// \ref ch_instances.
 /// \{
 
-/// An affine map, as a GLM matrix of four columns. The first three columns form L: they
-/// are the images of the axes. The last column is b, the image of the origin. GLM's
-/// functions make such a matrix, for example `Affine(glm::translate(glm::mat4(1), by))`
-/// for a translation by a vector.
+/// An affine map, as a GLM matrix of four columns: the three columns of L, then b.
+/// GLM's functions make such a matrix: `Affine(glm::translate(glm::mat4(1), by))` is a
+/// translation.
 template <std::floating_point T>
 using AffineT = glm::mat<4, 3, T>;
 using Affine = AffineT<float>; ///< AffineT in float.
@@ -40,11 +39,8 @@ template <std::floating_point T>
     return transform_vector(map, p) + map[3];
 }
 
-/// The image of a normal. It is normal to the image of the surface and points to the
-/// same side, even if the map mirrors.
-/// \param inverse  The inverse of the map, from inverse_of().
-/// \param n        A vector along the normal.
-/// \return A vector along the image's normal, in general not of unit length.
+/// The image of a normal, in general not of unit length. It points to the same side of
+/// the surface, even if the map mirrors. The argument is the inverse of the map.
 // [transform_normal]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> transform_normal(const AffineT<T>& inverse,
@@ -60,8 +56,7 @@ template <std::floating_point T>
     return glm::dot(map[0], glm::cross(map[1], map[2]));
 }
 
-/// The inverse map, by Cramer's rule.
-/// \param map  The map, whose determinant must not be 0.
+/// The inverse map, by Cramer's rule. The determinant of the map must not be 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr AffineT<T> inverse_of(const AffineT<T>& map) noexcept {
     const T d = determinant_of(map);

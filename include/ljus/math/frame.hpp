@@ -12,7 +12,7 @@ namespace ljus {
 /// from that coordinate system.
 /// \{
 
-/// Three orthonormal vectors; `normal` is the local z axis.
+/// Three orthonormal vectors.
 template <std::floating_point T>
 struct FrameT {
     Vec3T<T> tangent{T(1), T(0), T(0)};   ///< The local x axis, of unit length.
@@ -21,12 +21,9 @@ struct FrameT {
 };
 using Frame = FrameT<float>; ///< FrameT in float.
 
-/// Makes a frame around a normal, by the construction of \cite duff2017. It has no
-/// branch and is accurate for all normals, even near -z.
-/// \param n  Unit vector.
-/// \return A right-handed frame. For n from glm::normalize(), each length is within 3
-///         units of roundoff of 1, and the dot product of each two vectors is within 8
-///         units of 0.
+/// Makes a right-handed frame around a unit vector n \cite duff2017, accurate even near
+/// -z. For n from glm::normalize(), each length is within 3 units of roundoff of 1, and
+/// the dot product of each two vectors is within 8 units of 0.
 /// \cost One division, no square root, no branch.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_around(const Vec3T<T>& n) noexcept {

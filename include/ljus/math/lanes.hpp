@@ -13,21 +13,16 @@
 #include "ljus/math/vector.hpp"
 #include "ljus/version.hpp"
 
-namespace ljus {
+namespace ljus::detail {
 
-namespace detail {
-
-/// \defgroup lanes Lanes
-/// \brief Loops over eight numbers, which compilers turn into vector instructions.
-/// Compilers do not succeed if the body of a loop is long, chooses between products, or
-/// shifts each lane by a different number of bits.
-/// \{
+// Compilers turn loops over eight numbers into vector instructions. They do not succeed
+// if the body of a loop is long, chooses between products, or shifts each lane by a
+// different number of bits.
 
 inline constexpr int lane_count = 8;
 
-/// Calls `body(i)` for each of eight lanes, in a loop that is not unrolled. g++ would
-/// unroll the loop before it looks for vector instructions, and then would find none.
-/// \param body  Called with an int in [0, 8).
+/// Calls `body(i)` for i from 0 to 7, in a loop that is not unrolled. g++ would unroll
+/// the loop before it looks for vector instructions, and then would find none.
 template <typename Body>
 constexpr void for_lanes(Body&& body) noexcept {
 #if defined(__clang__)
@@ -65,13 +60,13 @@ struct alignas(32) Lanes3T {
 };
 using Lanes3 = Lanes3T<float>; ///< Lanes3T in float.
 
-/// Eight truth values: -1, with all bits set, for true, and 0 for false.
+/// Eight truth values.
 struct alignas(32) LaneMask {
-    std::int32_t lane[lane_count]; ///< -1 for true, 0 for false.
+    std::int32_t lane[lane_count]; ///< -1 (all bits set) for true, 0 for false.
 };
 
-/// Packs a mask into an integer with one byte per lane, for take_lane().
-/// \return An integer. The byte of a lane is 1 if the lane is true, and 0 otherwise.
+/// Packs a mask into an integer, for take_lane(). The byte of a lane is 1 if the lane
+/// is true, and 0 otherwise.
 [[nodiscard]] constexpr std::uint64_t yes_lanes(const LaneMask& mask) noexcept {
     std::array<std::int8_t, lane_count> bytes{};
     for (std::size_t i = 0; i < lane_count; ++i)
@@ -97,9 +92,9 @@ template <std::floating_point T>
 }
 
 /// The index of the smallest of eight numbers. Numbers that differ only in their last
-/// three bits count as equal. As integers, the bits of numbers >= 0 are ordered like
-/// the numbers. The function replaces the last three bits of each number by the index
-/// of its lane. The smallest integer then contains the index of the smallest number.
+/// three bits count as equal, because the index of the lane replaces these bits. Read
+/// as integers, numbers >= 0 keep their order, so that the smallest integer contains
+/// the index.
 /// \param numbers  The numbers; those in `among` must be >= 0.
 /// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
 /// \param bound    Numbers above `bound` and NaN do not count.
@@ -119,20 +114,10 @@ smallest_lane(const LanesT<T>& numbers, std::uint32_t among, T bound) noexcept {
     });
     return smallest == none ? 8 : static_cast<std::uint32_t>(smallest & 7);
 }
-/// \}
-
-} // namespace detail
-
-/// \defgroup prefetch Prefetching
-/// \brief A read from memory takes hundreds of cycles. A prefetch starts the read
-/// early.
-/// \{
-
-namespace detail {
 
 /// Hints that `lines` cache lines of 64 bytes, from `address` on, will soon be read.
 /// The hint does not change results. Compilers without such a hint ignore it.
-template <int lines = 1>
+template <int lines>
 inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__) // clang defines it, too
     for (int i = 0; i < lines; ++i)
@@ -140,7 +125,4 @@ inline void prefetch([[maybe_unused]] const void* address) noexcept {
 #endif
 }
 
-} // namespace detail
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

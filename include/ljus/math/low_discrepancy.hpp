@@ -73,7 +73,7 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
                                             std::uint32_t dimension) noexcept {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 32; ++i) // branches would be unpredictable
-        bits ^= detail::sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
+        bits ^= sobol_table[dimension][i] & (0u - ((index >> i) & 1u));
     return bits;
 }
 
@@ -112,10 +112,9 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The random numbers of one path. Together, the numbers of all paths of a pass fill
-/// the unit cube evenly. The first sobol_dimensions numbers of a path are a scrambled
-/// Sobol point, and all further ones are random. A SobolStream is used like a
-/// RandomStream.
+/// The random numbers of one path. The first sobol_dimensions numbers are a scrambled
+/// Sobol point, and all further ones are random. The points of all paths of a pass fill
+/// the unit cube evenly.
 ///
 /// Each number alone is uniform, so that expected values stay the same. The numbers of
 /// one path are independent of each other.
@@ -126,13 +125,8 @@ struct SobolStream {
     RandomStream rest{};         ///< Supplies the numbers after the last dimension.
 };
 
-/// The stream of one path.
-/// \param seed       The user's seed.
-/// \param pass       The pass that draws the numbers.
-/// \param iteration  The repetition of the pass; each has its own scrambling.
-/// \param path       The path's number in the pass. The scrambling changes after each
-///                   2^32 paths.
-/// \return A stream at dimension 0.
+/// The stream of one path, for the arguments of random_stream(). Each iteration has its
+/// own scrambling. The scrambling also changes after each 2^32 paths.
 [[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
                                                  std::uint64_t iteration,
                                                  std::uint64_t path) noexcept {
@@ -143,8 +137,7 @@ struct SobolStream {
 
 namespace detail {
 
-/// A SobolStream that gives only the random numbers of `rest`. Code that is compiled
-/// for a SobolStream can thus also use plain random numbers.
+/// A SobolStream that gives only the random numbers of `rest`.
 [[nodiscard]] constexpr SobolStream without_points(const RandomStream& rest) noexcept {
     return {.dimension = sobol_dimensions, .rest = rest};
 }

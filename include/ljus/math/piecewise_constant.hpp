@@ -111,11 +111,8 @@ template <std::floating_point T>
 }
 // [sample_cell]
 
-/// The probability that sample_cell() chooses a cell: the cell's weight over the sum of
-/// all weights.
-/// \param density  The cumulative sums of the weights.
-/// \param x        Column, in [0, width).
-/// \param y        Row, in [0, height).
+/// The probability that sample_cell() chooses the cell in column x and row y: the
+/// cell's weight over the sum of all weights.
 [[nodiscard]] inline double probability_of_cell(const PiecewiseConstant2D& density,
                                                 int x, int y) noexcept {
     const auto row = detail::row_of(density, y);

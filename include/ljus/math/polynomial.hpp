@@ -14,14 +14,7 @@
 
 #include "ljus/version.hpp"
 
-namespace ljus {
-
-/// \defgroup polynomial Polynomials
-/// \brief Section 2.1: isosurfaces are "treated analytically", as roots of polynomials.
-/// Chapter: \ref ch_metaballs.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 /// A polynomial p of degree N on [0, 1], given by its Bernstein coefficients c_i:
 /// \f[ p(u) = \sum_{i=0}^{N} c_i \binom{N}{i} u^i (1 - u)^{N-i}. \f]
@@ -84,10 +77,9 @@ template <std::floating_point T, std::size_t N>
     return T(8) * std::numeric_limits<T>::epsilon() * largest;
 }
 
-/// The root between a and b of a polynomial p that has opposite signs at a and at b.
-/// The function makes steps of Newton's method. If such a step would leave the
-/// interval, or would be more than half as long as the last step, the interval is
-/// bisected instead.
+/// The root between a and b of a polynomial p that has opposite signs at a and at b, by
+/// Newton's method. If a step would leave the interval, or would be more than half as
+/// long as the last step, the interval is bisected instead.
 /// \return The root. Where p is steep, the error is at most one unit of roundoff of 1.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]
@@ -112,8 +104,8 @@ template <std::floating_point T, std::size_t N>
 }
 // [root_between]
 
-/// Roots in ascending order. A polynomial of degree N has at most N monotone pieces,
-/// which have N + 1 ends. roots() finds at most one root per end.
+/// Roots of a polynomial of degree N. It has at most N monotone pieces, which have
+/// N + 1 ends. roots() finds at most one root per end.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The roots: the first `count` elements.
@@ -198,8 +190,4 @@ template <std::floating_point T, std::size_t N>
     return std::nullopt;
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -57,17 +57,15 @@ struct RandomStream {
         .key = mix_bits(mix_bits(work + odd * (iteration + 1)) ^ mix_bits(path + odd))};
 }
 
-/// Moves a stream to the start of a bounce. The numbers of a bounce do not depend on
-/// how many numbers were drawn before.
-/// \param stream  The stream.
-/// \param bounce  The number of the bounce; 0 is the camera or the light.
+/// Moves a stream to the start of a bounce; bounce 0 is the camera or the light. The
+/// numbers of a bounce do not depend on how many numbers were drawn before.
 constexpr void start_bounce(RandomStream& stream, std::uint64_t bounce) noexcept {
     stream.counter = bounce << 16;
 }
 
 /// The next number, uniform in [0, 1), never 1; uses one dimension.
 /// \return A multiple of 2^-24 (float) or 2^-53 (double).
-/// \cost Two multiplications and a few shifts.
+/// \cost Three multiplications and a few shifts.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(RandomStream& stream) noexcept {
     constexpr std::uint64_t odd = 0x9e3779b97f4a7c15u;
@@ -85,8 +83,7 @@ template <std::floating_point T = float>
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3; uses three dimensions. Two coordinates
-/// serve to sample a direction, and the third to choose a lobe.
+/// The next point of the unit cube [0, 1)^3; uses three dimensions.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
     const T x = next_1d<T>(stream);

@@ -77,8 +77,8 @@ LJUS_CORE_INLINE std::string numbers_to_text(std::initializer_list<double> value
 
 } // namespace detail
 
-/// A number as text: -1, 0.5, 1e-7, 1e+30, NaN, infinity. It has at least 6 digits, and
-/// more if they are needed to read the same value back.
+/// A number as text: -1, 0.5, 1e-7, 1e+30, NaN, infinity. It is rounded to 6 digits, or
+/// to as many more as are needed to read the same value back.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string to_text(T value) {
     return detail::numbers_to_text({double(value)}, std::is_same_v<T, float>);
@@ -93,9 +93,7 @@ template <std::floating_point T>
 
 /// An integer as text.
 [[nodiscard, gnu::cold]] inline std::string to_text(long long value) {
-    char digits[24];
-    std::snprintf(digits, sizeof digits, "%lld", value);
-    return digits;
+    return std::to_string(value);
 }
 
 namespace detail {
@@ -110,8 +108,7 @@ template <typename Value>
 
 } // namespace detail
 
-/// Throws an exception if a condition fails. The message says which value is wrong,
-/// what it is, and what would be right.
+/// Throws an exception if a condition fails.
 /// \param ok     The condition that must hold.
 /// \param what   The name of the value, e.g. "sphere.radius".
 /// \param value  The value, shown in the message.

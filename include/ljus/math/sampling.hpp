@@ -16,8 +16,7 @@ namespace ljus {
 /// \brief Section 3.2.4: sampling functions. Each takes a point u of [0,1)^2 and stands
 /// beside its pdf.
 ///
-/// Directions are unit vectors around +z. The caller supplies the random numbers, so
-/// that every function here can be plotted, stratified and tested.
+/// Directions are unit vectors around +z.
 /// \{
 
 namespace detail {
@@ -63,9 +62,8 @@ template <std::floating_point T>
 /// Samples a direction above the horizon with density cos(theta)/pi, where theta is the
 /// angle to +z. A point of the unit disc is lifted onto the hemisphere (Malley's
 /// method).
-/// A point on the border of the disc would lie on the horizon, where the density is 0.
-/// The function therefore returns z >= sqrt(epsilon), with the machine epsilon of T.
-/// \return Unit vector with z > 0.
+/// \return Unit vector with z >= sqrt(epsilon), for the machine epsilon of T. On the
+///         horizon itself the density would be 0.
 /// \cost That of sample_concentric_disc(), and one square root.
 /// \report{Section 3.2.4}
 // [cosine hemisphere]
@@ -90,11 +88,10 @@ template <std::floating_point T>
 }
 
 /// Samples a direction inside a cone around +z, uniformly in solid angle.
-/// The size of the cone is given as 1 - cos(theta_max), where theta_max is the half
-/// angle. For a small angle, cos(theta_max) is close to 1 and has lost most digits. See
-/// one_minus_cosine().
 /// \param u                  Point of [0,1)^2.
-/// \param one_minus_cos_max  1 - cos(theta_max), in (0, 2]; 1 gives the hemisphere.
+/// \param one_minus_cos_max  1 - cos(theta_max), in (0, 2], where theta_max is the half
+///                           angle; 1 gives the hemisphere. A small angle would lose
+///                           most digits in cos(theta_max); see one_minus_cosine().
 /// \return Unit vector within the cone.
 /// \cost One square root, one sine, one cosine.
 template <std::floating_point T>
@@ -106,21 +103,16 @@ template <std::floating_point T>
     return {r * std::cos(phi), r * std::sin(phi), T(1) - w};
 }
 
-/// The density of sample_uniform_cone(), per steradian, for a direction inside the
-/// cone. The caller tests whether the direction is inside.
-/// \param one_minus_cos_max  1 - cos(theta_max), in (0, 2], where theta_max is the half
-///                           angle.
-/// \return 1 over the solid angle of the cone, which is 2 pi (1 - cos(theta_max)).
+/// The density of sample_uniform_cone(), per steradian, for any direction inside the
+/// cone: 1 over the cone's solid angle, 2 pi (1 - cos(theta_max)).
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_cone(T one_minus_cos_max) noexcept {
     return std::numbers::inv_pi_v<T> / (T(2) * one_minus_cos_max);
 }
 
-/// Computes 1 - cos(theta) from sin^2(theta), without cancellation.
-/// \param sin_squared  sin^2(theta), in [0, 1], for an angle theta up to 90 degrees.
-///                     For the half angle of a sphere seen from outside it is radius^2
-///                     / distance^2.
-/// \return 1 - sqrt(1 - sin^2), computed as sin^2 / (1 + sqrt(1 - sin^2)).
+/// Computes 1 - cos(theta) from sin^2(theta) without cancellation, for an angle theta
+/// up to 90 degrees. For the half angle of a sphere seen from outside, sin^2(theta) is
+/// radius^2 / distance^2.
 template <std::floating_point T>
 [[nodiscard]] T one_minus_cosine(T sin_squared) noexcept {
     return sin_squared / (T(1) + std::sqrt(T(1) - sin_squared));
@@ -152,10 +144,9 @@ template <std::floating_point T>
 }
 
 /// Samples a point of a triangle, uniformly in area. The square is folded along its
-/// diagonal \cite heitz2019, so that nearby values of u give nearby points. No square
-/// root is needed.
+/// diagonal \cite heitz2019, so that nearby values of u give nearby points.
 /// \return Barycentric coordinates of the three vertices, each >= 0, with sum 1.
-/// \cost Five additions and multiplications.
+/// \cost One comparison, one multiplication, two subtractions.
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> sample_uniform_triangle(const Vec2T<T>& u) {
     if (u.x < u.y) {
@@ -166,8 +157,7 @@ template <std::floating_point T>
     return {u.x - half, half, T(1) - u.x};
 }
 
-/// The density of sample_uniform_triangle(), per unit of area: 1/area.
-/// \param area  The area of the triangle.
+/// The density of sample_uniform_triangle(), per unit of area.
 template <std::floating_point T>
 [[nodiscard]] constexpr T pdf_uniform_triangle(T area) noexcept {
     return T(1) / area;
@@ -188,7 +178,7 @@ template <std::floating_point T>
 
 /// Samples a direction above the horizon whose inclination and azimuth are uniform.
 /// \return Unit vector with z > 0.
-/// \cost Two sines, two cosines.
+/// \cost Three sines, one cosine.
 /// \report{Section 3.2.4}
 // [naive hemisphere]
 template <std::floating_point T>
@@ -208,8 +198,8 @@ template <std::floating_point T>
 /// \f[ p(\omega) = \frac{1}{\pi^2 \sin\theta} \f]
 ///
 /// The inclination theta has density 2/pi per radian, and the azimuth phi has density
-/// 1/(2 pi) per radian. Their product is divided by sin(theta), because a step dtheta
-/// dphi covers the solid angle sin(theta) dtheta dphi.
+/// 1/(2 pi). Their product is divided by sin(theta), because dtheta dphi covers the
+/// solid angle sin(theta) dtheta dphi.
 /// \return At least 1/pi^2; infinite at the pole, 0 on and below the horizon.
 // [naive pdf]
 template <std::floating_point T>

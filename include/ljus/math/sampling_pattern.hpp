@@ -11,23 +11,24 @@
 
 namespace ljus {
 
-/// \defgroup stratified Stratified primary rays
-/// \brief Section 3.2: "stratified grid sampling".
+/// \defgroup sampling_pattern Sampling patterns
+/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
+/// \ref ch_first_picture.
 /// \{
 
 namespace detail {
 
-/// The cells of a pixel, in a grid of columns and rows. Either each cell has one ray,
-/// or each column and each row has one ray. The second arrangement is called n rooks.
+/// The cells of a pixel, in a grid.
 struct Strata {
     int columns = 1;      ///< The number of columns.
     int rows = 1;         ///< The number of rows.
-    bool n_rooks = false; ///< True if each column and each row has one ray.
+    bool n_rooks = false; ///< Whether each column and each row has one ray.
 };
 
-/// Chooses the grid for a number of rays. It has one cell per ray, and the cells are as
-/// square as possible. If the grid would have more than four times as many rows as
-/// columns, as for a prime above 4, the function chooses n rooks.
+/// The grid for a number of rays: one cell per ray, as square as possible. If the grid
+/// would have more than four times as many rows as columns, as for a prime above 4, it
+/// has n columns and n rows for n rays, with one ray in each column and in each row (n
+/// rooks).
 /// \erratum{The report's program steps by 1/sqrt(n) for n rays and drops the remainder.
 ///          It traced 4 of 8 rays. It traced 9 of 10 rays, all of them in nine tenths
 ///          of the pixel.}
@@ -40,10 +41,10 @@ struct Strata {
     return {.columns = columns, .rows = rows};
 }
 
-/// The value at index i of a random permutation of the numbers 0 to count - 1. Instead
-/// of a table, the function uses an invertible hash of the numbers below the next power
-/// of two. It repeats the hash until the value is below count. Finally it adds a random
-/// offset modulo count, because the hash alone does not give each value equally often.
+/// The value at index i of a random permutation of the numbers 0 to count - 1, from an
+/// invertible hash of the numbers below the next power of two. The hash is repeated
+/// until the value is below count. A random offset modulo count is added, because the
+/// hash alone does not give each value equally often.
 /// \param i      The index, in [0, count).
 /// \param count  From 1 to 2^31.
 /// \param key    The number of the permutation.
@@ -90,13 +91,6 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// \}
-
-/// \defgroup sampling_pattern Sampling patterns
-/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
-/// \ref ch_first_picture.
-/// \{
-
 /// How the rays of a pixel are spread over the pixel. Every pattern has exactly the
 /// requested number n of points. Each point alone is uniform over the pixel, so that
 /// the pattern does not change the mean of a pixel.
@@ -117,9 +111,7 @@ struct Pattern {
     detail::Strata strata{};                      ///< The cells of a jittered pattern.
 };
 
-/// Makes a pattern.
-/// \param sampling  How the points are spread.
-/// \param points    The number of points, at least 1.
+/// Makes a pattern of at least one point.
 [[nodiscard]] constexpr Pattern make_pattern(Sampling sampling, int points) noexcept {
     Pattern pattern{.sampling = sampling, .points = points};
     if (sampling == Sampling::jittered) pattern.strata = detail::strata_for(points);
@@ -144,7 +136,6 @@ namespace detail {
 /// are spread evenly over the pixel from a random start. Finally all strips are shifted
 /// cyclically by the same random number, so that each strip is equally likely.
 /// \return The strip, in [0, points), different for each i.
-/// \cost Two calls of shuffled() and five divisions.
 [[nodiscard]] constexpr std::uint32_t
 strip_of_broken(const Pattern& pattern, std::uint32_t i, std::uint64_t key) noexcept {
     const auto all = static_cast<std::uint32_t>(pattern.points);

@@ -15,10 +15,10 @@ namespace ljus {
 /// \ref ch_distributed_rays.
 /// \{
 
-/// The random numbers of one ray of a pixel. In each draw, the picture's pattern
-/// spreads the numbers of the pixel's rays evenly over the interval or the square. Each
-/// draw permutes the rays in a different way. A ray's time, for example, therefore does
-/// not depend on its position on the lens.
+/// The random numbers of one ray of a pixel. In each draw, the pattern spreads the
+/// numbers of the pixel's rays evenly over the interval or the square. Each draw
+/// permutes the rays in a different way, so that a ray's time does not depend on its
+/// position on the lens.
 struct StratifiedStream {
     Pattern pattern{};     ///< The pattern of the pixel's rays.
     int ray = 0;           ///< The ray's number, in [0, pattern.points).
@@ -45,10 +45,8 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce. The numbers of a bounce do not depend on
-/// how many numbers were drawn before.
-/// \param stream  The stream.
-/// \param bounce  The number of the bounce; 0 is the camera.
+/// Moves a stream to the start of a bounce; bounce 0 is the camera. The numbers of a
+/// bounce do not depend on how many numbers were drawn before.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);

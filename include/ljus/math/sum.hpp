@@ -3,21 +3,13 @@
 /// \file ljus/math/sum.hpp
 /// \brief Sums of many terms with a small rounding error.
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <type_traits>
 
 #include "ljus/version.hpp"
 
-namespace ljus {
-
-/// \defgroup sum Sums
-/// \brief A plain sum of 10^8 ones in float stops at 2^24 and loses 83 % of the result.
-/// \{
-
-namespace detail {
+namespace ljus::detail {
 
 template <typename T>
 [[nodiscard]] constexpr T pairwise_sum(const T* first, std::size_t count) noexcept {
@@ -32,22 +24,15 @@ template <typename T>
 }
 
 /// The sum of numbers or colours, by pairwise summation: a list is cut into two halves,
-/// and each half is summed in the same way.
-///
-/// Each of n terms passes through at most 16 + log2(n) additions. The rounding error
-/// therefore grows like log n instead of n.
+/// and each half is summed in the same way. Each of n terms passes through at most
+/// 16 + log2(n) additions, so that the rounding error grows like log n instead of n.
 /// \param terms  Anything contiguous: a vector, an array, a span.
 /// \return The sum; 0 for no terms.
-/// \cost One addition per term.
 template <typename Terms>
 requires std::constructible_from < std::span<const typename Terms::value_type>,
 const Terms& > [[nodiscard]] constexpr auto pairwise_sum(const Terms& terms) noexcept {
     const std::span<const typename Terms::value_type> all(terms);
-    return detail::pairwise_sum(all.data(), all.size());
+    return pairwise_sum(all.data(), all.size());
 }
 
-} // namespace detail
-
-/// \}
-
-} // namespace ljus
+} // namespace ljus::detail

@@ -36,13 +36,12 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: the type Compute if it is a floating-point type, and
-/// otherwise T, the precision of the data. By default Compute is void.
+/// The precision of a computation: Compute if it is a floating-point type. Otherwise,
+/// as for the default void, the precision T of the data.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 
-/// The wider of T and double. It serves computations that need more digits or a larger
-/// range than float has.
+/// The wider of T and double.
 template <std::floating_point T>
 using WideT = decltype(T() + double());
 
@@ -76,10 +75,8 @@ template <std::floating_point T>
     return v.x < yz ? yz : v.x;
 }
 
-/// Longitude u and latitude v of a direction, both scaled to [0, 1]. North is along +y.
-/// u goes once around, from +x towards -z, and v goes from 0 at the south pole to 1 at
-/// the north pole.
-/// \param d  A direction of any length.
+/// Longitude u and latitude v of a direction of any length, both scaled to [0, 1]. u
+/// goes once around, from +x towards -z. v goes from 0 at -y to 1 at +y.
 /// \return (u, v); (0, 0.5) for the zero vector.
 /// \cost Two arc tangents.
 template <std::floating_point T>

@@ -163,8 +163,8 @@ void estimates_together(const PhotonMapT<T>& map,
     const double r2 = double(gather.radius) * double(gather.radius);
     const std::span<const Lanes3T<T>> blocks = map.tree.blocks();
     const std::span<const RecordBlockT<T>> records = map.records.blocks();
-    map.tree.find_in_balls(
-        places.size(),
+    find_in_balls(
+        map.tree.parts(), places.size(),
         [&](std::size_t i) -> const Vec3T<T>& { return places[i].center; }, radius,
         [&](std::size_t block) {
             prefetch<sizeof(RecordBlockT<T>) / 64>(&records[block]);

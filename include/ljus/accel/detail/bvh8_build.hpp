@@ -15,11 +15,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup bvh_collapse Collapsing a tree
-/// \brief Turns a tree with two children per node into a tree with up to eight, so that
-/// rays visit fewer nodes. Chapter: \ref ch_bvh.
-/// \{
-
 /// Chooses which nodes of a binary tree become the children of wide nodes. It minimises
 /// the sum of the surface areas of all wide nodes, because the probability that a ray
 /// visits a node is proportional to the node's area \cite ylitie2017.
@@ -55,9 +50,8 @@ public:
         }
     }
 
-    /// The children of a wide node.
-    /// \param from  The binary node that becomes the wide node. It is an inner node or
-    ///              a root without children. Such a root becomes its own only child.
+    /// The children of the wide node that a binary node becomes. A root without
+    /// children becomes its own only child.
     [[nodiscard]] Children children(std::uint32_t from) const {
         Children result;
         const BvhNodeT<T>& node = tree_.nodes[from];
@@ -108,12 +102,6 @@ private:
     std::vector<std::array<double, width - 1>> cost_; // for 1, 2, ... slots
 };
 
-/// \}
-
-/// \defgroup wide_nodes Wide nodes
-/// \brief Nodes with up to eight children. Chapter: \ref ch_bvh.
-/// \{
-
 /// A node with up to eight children. The boxes of the children are stored coordinate by
 /// coordinate \cite wald2008.
 struct Bvh8Node {
@@ -122,12 +110,11 @@ struct Bvh8Node {
     /// The children, encoded as in Bvh8Child.
     std::array<std::uint32_t, lane_count> child;
 };
-/// The encoding of a child in 32 bits. An inner node is encoded as its position in the
-/// array of nodes, in units of Lanes. A leaf is encoded as its first slot and its
-/// number of primitives.
+/// The encoding of a child in 32 bits: an inner node as its position in the array of
+/// nodes, in units of Lanes, and a leaf as its first slot and number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    /// The lowest of the bits that hold the number of primitives minus 1.
+    /// The lowest of the bits with the number of primitives minus 1.
     static constexpr int count_shift = 27;
     /// The bits of a leaf's first slot.
     static constexpr std::uint32_t first = (1u << count_shift) - 1;
@@ -139,16 +126,16 @@ struct Bvh8Child {
     static constexpr std::uint32_t stride = sizeof(Bvh8Node) / sizeof(Lanes);
 };
 
-/// A wide tree: its nodes, the root first, and the primitives in the order of the
-/// leaves. Coordinates are relative to the centre of the tree's box, so that a scene
-/// far from the origin loses no precision.
+/// A wide tree. The coordinates in its nodes are relative to the centre of the tree's
+/// box, so that a scene far from the origin loses no precision.
 struct Bvh8Nodes {
-    GrowingArray<Bvh8Node> nodes{}; ///< The nodes; none in an empty tree.
-    std::vector<std::uint32_t>
-        primitive_ids{}; ///< The index of the primitive at each slot, or padding.
-    Box box{};           ///< The box around all primitives.
-    Vec3 middle{0};      ///< The centre of the box.
-    Vec3 half{0};        ///< Half the size of the box.
+    /// The nodes, the root first; none in an empty tree.
+    GrowingArray<Bvh8Node> nodes{};
+    /// The index of the primitive at each slot, or padding.
+    std::vector<std::uint32_t> primitive_ids{};
+    Box box{};      ///< The box around all primitives.
+    Vec3 middle{0}; ///< The centre of the box.
+    Vec3 half{0};   ///< Half the size of the box.
 
     /// The entry of primitive_ids for an unused slot between leaves.
     static constexpr std::uint32_t padding = std::numeric_limits<std::uint32_t>::max();
@@ -194,12 +181,10 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
 }
 /// Collapses a binary tree into a wide tree.
 /// \param tree      The binary tree. Its leaves have at most 16 primitives.
-/// \param multiple  The first slot of each leaf is a multiple of this number. Unused
-///                  slots between leaves are padding.
+/// \param multiple  As for Bvh8.
 /// \throws std::invalid_argument  if there are 2^27 slots or more.
 template <std::floating_point T>
-[[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree,
-                                  std::uint32_t multiple = 1) {
+[[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree, std::uint32_t multiple) {
     Bvh8Nodes wide;
     if (tree.nodes.empty()) return wide;
     wide.box = tree.nodes[0].box;
@@ -215,7 +200,5 @@ template <std::floating_point T>
     wide.primitive_ids = std::vector<std::uint32_t>(wide.primitive_ids);
     return wide;
 }
-
-/// \}
 
 } // namespace ljus::detail

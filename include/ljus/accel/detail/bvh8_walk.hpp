@@ -20,14 +20,10 @@ struct Bvh8Ray {
     Vec3 inverse{1};    ///< 1 over the direction, per component; always finite.
     Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
     Vec3 far_shift{0};  ///< The shift of the far planes.
-    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
-    /// first.
-    std::array<std::size_t, 3> near{};
-    /// For each axis, the index in Bvh8Node::plane of the plane that the ray meets
-    /// last.
-    std::array<std::size_t, 3> far{};
-    float length = 0; ///< The direction's largest absolute component.
-    float last = 0;   ///< The largest t that is searched.
+    std::array<std::size_t, 3> near{}; ///< Near plane per axis, in Bvh8Node::plane.
+    std::array<std::size_t, 3> far{};  ///< Far plane per axis, in Bvh8Node::plane.
+    float length = 0;                  ///< The direction's largest absolute component.
+    float last = 0;                    ///< The largest t that is searched.
     /// Whether products of three lengths, as in conservative_filter(), are finite.
     bool moderate = false;
 };
@@ -61,31 +57,9 @@ struct Bvh8Ray {
         r.far[i] = i + 3 * (1 - back);
     }
     r.moderate = reach * reach * glm::max(reach, r.length) < 1e36f;
-    // The squares of the direction and of the distance must stay finite.
     constexpr float most = 1e18f;
     return r.length > 1 / most && r.length < most && reach < most &&
            is_finite(r.near_shift) && is_finite(r.far_shift);
-}
-
-// The start of a search: the prepared ray, or the result of the search if the ray
-// cannot be prepared.
-struct Bvh8Start {
-    Bvh8Ray ray{};
-    bool done = true;   // the search has ended
-    bool found = false; // what the leaf function returned for all slots
-};
-
-// Prepares a ray. If that fails for a finite ray, the leaf function is called for all
-// slots at once.
-template <typename Leaf>
-inline Bvh8Start begin_walk(const Bvh8Nodes& wide, const Ray& ray, Leaf& leaf) {
-    Bvh8Start start;
-    if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return start;
-    start.done = !make_ready(start.ray, ray, wide.middle, wide.half);
-    if (start.done && is_finite(ray.origin) && is_finite(ray.direction))
-        start.found = leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
-                           static_cast<const Bvh8Ray*>(nullptr));
-    return start;
 }
 
 // Tests eight boxes at once. Returns the boxes that the ray enters, as yes_lanes()
@@ -221,29 +195,29 @@ private:
 };
 
 /// The traversal of every search. It tests the eight boxes of a node together and then
-/// visits a child \cite wald2008.
+/// visits a child \cite wald2008. It calls `watch(node)` for each node, and
+/// `leaf(first slot, count, prepared ray)` for each leaf. If `leaf` returns true, the
+/// search ends. If the ray cannot be prepared, `leaf` is called once for all slots,
+/// with a null pointer.
 /// \tparam any  If true, children are visited in any order. If false, nearer children
 ///              come first, and the leaf function shortens the ray.
-/// \param wide   The tree.
-/// \param ray    The ray.
-/// \param leaf   Called as leaf(first slot, count, prepared ray). If it returns true,
-///               the search ends. If the ray cannot be prepared, `leaf` is called once
-///               for all slots, with a null pointer.
-/// \param watch  Called with the index of each visited node.
 template <bool any, typename Leaf, typename Watch>
 bool walk(const Bvh8Nodes& wide, const Ray& ray, Leaf&& leaf, Watch&& watch) {
-    const Bvh8Start start = begin_walk(wide, ray, leaf);
-    if (start.done) return start.found;
+    if (wide.nodes.empty() || !(ray.t_min <= ray.t_max)) return false;
+    Bvh8Ray ready;
+    if (!make_ready(ready, ray, wide.middle, wide.half))
+        return is_finite(ray.origin) && is_finite(ray.direction) &&
+               leaf(0u, static_cast<std::uint32_t>(wide.primitive_ids.size()),
+                    static_cast<const Bvh8Ray*>(nullptr));
     std::conditional_t<any, AnyOrder<Leaf>, NearestFirst<Leaf>> waiting;
     for (std::uint32_t at = 0;;) {
         if ((at & Bvh8Child::leaf) != 0) {
-            if (leaf(at & Bvh8Child::first, Bvh8Child::count(at), &start.ray))
-                return true;
+            if (leaf(at & Bvh8Child::first, Bvh8Child::count(at), &ready)) return true;
         } else {
             watch(at / Bvh8Child::stride);
             Lanes t;
             const std::uint64_t entered =
-                entered_lanes<Leaf>(t, wide, at, start.ray, ray.t_min, ray.t_max);
+                entered_lanes<Leaf>(t, wide, at, ready, ray.t_min, ray.t_max);
             if (entered != 0) {
                 at = waiting.enter(wide, at, entered, t);
                 continue;

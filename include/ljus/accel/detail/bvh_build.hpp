@@ -19,10 +19,6 @@
 
 namespace ljus::detail {
 
-/// \defgroup bvh_build Building trees of boxes
-/// \brief Splitting a range of primitives in two. Chapter: \ref ch_bvh.
-/// \{
-
 // A box during construction, stored as the lower bounds and the negated upper bounds.
 // Growing the box is then the same operation in all lanes, which compilers vectorise.
 template <std::floating_point T>
@@ -64,9 +60,8 @@ struct PrimitiveRefT {
     [[nodiscard]] BoundsT<T> centers() const noexcept {
         BoundsT<T> result{};
         for (int i = 0; i < 4; ++i) {
-            const T middle = T(0.5) * bounds.side[i] - T(0.5) * bounds.side[i + 4];
-            result.side[i] = middle;
-            result.side[i + 4] = -middle;
+            result.side[i] = center(i);
+            result.side[i + 4] = -center(i);
         }
         return result;
     }
@@ -172,17 +167,11 @@ template <std::floating_point T>
 }
 // [best_split]
 
-// The two halves of a range.
-template <std::floating_point T>
-struct HalvesT {
-    PrimitiveRangeT<T> low;
-    PrimitiveRangeT<T> high;
-};
-
 // Partitions a range at a split. Without a split, the range is halved by index.
 template <std::floating_point T>
-[[nodiscard]] HalvesT<T> divide(GrowingArray<PrimitiveRefT<T>>& refs,
-                                const PrimitiveRangeT<T>& range, const Split& split) {
+[[nodiscard]] std::array<PrimitiveRangeT<T>, 2>
+divide(GrowingArray<PrimitiveRefT<T>>& refs, const PrimitiveRangeT<T>& range,
+       const Split& split) {
     PrimitiveRangeT<T> low{
         .first = range.first, .last = range.first, .depth = range.depth + 1};
     PrimitiveRangeT<T> high{
@@ -270,8 +259,9 @@ private:
                                 ? Split{}
                                 : best_split(refs_, range, settings_.at_a_time);
         const double area = range.bounds.half_area();
-        const bool divided_is_better = split.cost + double(settings_.node_cost) * area <
-                                       tests_of(count, settings_.at_a_time) * area;
+        // To visit a node costs as much as one test.
+        const bool divided_is_better =
+            split.cost + area < tests_of(count, settings_.at_a_time) * area;
         if (count == 1 || (count <= settings_.leaf_size && !divided_is_better)) {
             nodes[node].first = range.first;
             nodes[node].count = count;
@@ -320,8 +310,7 @@ template <std::floating_point T>
     return BvhBuilder<T>(boxes, settings).build();
 }
 
-/// Builds the same tree as the function above, but frees the boxes before it builds the
-/// nodes.
+/// Builds the same tree, but frees the boxes before it builds the nodes.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::vector<BoxT<T>>&& boxes,
                                      const BvhSettings& settings) {
@@ -330,7 +319,5 @@ template <std::floating_point T>
     std::vector<BoxT<T>>().swap(boxes);
     return builder.build();
 }
-
-/// \}
 
 } // namespace ljus::detail

@@ -35,11 +35,10 @@ struct KdTree8NodeT {
 /// The layout of a wide tree. The positions of nodes and leaves are computed, so that
 /// the tree needs no pointers.
 ///
-/// The points are grouped into blocks of eight, and the blocks into leaves of at most
-/// `leaf_blocks` blocks. The number of leaves is a power of two, and the blocks are
-/// distributed evenly among the leaves. The list of points is halved repeatedly, down
-/// to the leaves. A node with eight children combines three halvings; the root may have
-/// fewer children.
+/// The points are grouped into blocks of eight, and the blocks are distributed evenly
+/// among the leaves. The number of leaves is a power of two. The list of points is
+/// halved repeatedly, down to the leaves. A node with eight children combines three
+/// halvings; the root may have fewer children.
 struct KdTree8Shape {
     static constexpr int leaf_blocks = 4; ///< Largest number of blocks per leaf.
 
@@ -47,8 +46,8 @@ struct KdTree8Shape {
     std::uint64_t blocks = 0; ///< Number of blocks.
     int halvings = 0;         ///< Number of halvings from the root to a leaf.
     int levels = 0;           ///< Number of levels of nodes.
-    std::array<std::uint32_t, 12>
-        first{}; ///< The index of each level's first node, then the number of nodes.
+    /// The index of each level's first node, then the number of nodes.
+    std::array<std::uint32_t, 12> first{};
 
     /// The layout for a number of points.
     [[nodiscard]] static constexpr KdTree8Shape of(std::uint64_t points) noexcept {
@@ -99,8 +98,8 @@ struct KdTree8ItemT {
         : v{point.x, point.y, point.z}, index(static_cast<Index>(number)) {}
 };
 
-/// A list of items, stored in pieces. A piece can be freed as soon as it has been read,
-/// so that the list and the result made from it are not both wholly in memory.
+/// A list of items, stored in pieces. Each piece is freed when it has been read, so
+/// that the list and the result made from it are not both wholly in memory.
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
@@ -138,8 +137,7 @@ public:
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
-    /// Sets where the list puts a piece that has been read. If `spare` is null, the
-    /// list frees the piece.
+    /// Sets where the list puts a piece that has been read; null if it is freed.
     void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {
@@ -175,13 +173,6 @@ private:
     Spare* spare_ = nullptr;
 };
 
-/// Refuses more points than a tree can have.
-inline void require_point_count(std::size_t count) {
-    require(count <= std::numeric_limits<std::uint32_t>::max(),
-            "the number of points in a k-d tree", static_cast<long long>(count),
-            "below 2^32");
-}
-
 /// Makes a list of items from points.
 /// \throws std::invalid_argument  if a point is not finite, or if there are too many.
 template <std::floating_point T>
@@ -205,8 +196,7 @@ public:
     }
 
     // Divides the points level by level, in lists, into the ranges of whole subtrees.
-    // Then builds the subtrees in parallel, in arrays. The tree grows while the items
-    // of its subtrees are freed.
+    // Then builds the subtrees in parallel, in arrays, and frees their items.
     [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;

@@ -144,9 +144,9 @@ void keep_nearest(CandidatesT<T>& all, std::size_t count, std::size_t k,
     reach = ReachT<T>::up_to(limit2, true);
 }
 
-/// A result set for walk(). It finds the k nearest points, for k up to max_counted, by
-/// collecting candidates. When there are `enough` candidates, select_smallest() finds
-/// the k-th smallest distance, which becomes the reach.
+/// A result set for walk(). It collects candidates for the k nearest points, for k up
+/// to max_counted. When there are `enough` of them, select_smallest() finds the k-th
+/// smallest distance, which becomes the reach.
 template <std::floating_point T, typename Wanted>
 struct NearestCountedT {
     static constexpr bool nearest_first = true;
@@ -192,8 +192,7 @@ struct NearestCountedT {
         keep_nearest(all, count, k, tree, center, reach);
         count = k;
     }
-    /// Writes the points into `found`. The first one is the farthest, and the others
-    /// are unsorted.
+    /// Writes the points into `found`, the farthest first and the others unsorted.
     /// \return The number of points.
     [[nodiscard]] std::size_t give(const KdTree8PartsT<T>& tree, const Vec3T<T>& center,
                                    std::span<Neighbor> found) {

@@ -32,10 +32,8 @@ template <std::floating_point T>
 /// The limit of a search: the squared radius in double, and two bounds in T that decide
 /// for nearly all points.
 ///
-/// A squared distance computed in T has at most five rounding errors. Each bound
-/// differs from the limit by 16 rounding errors. A distance up to `sure` is therefore
-/// within the limit, and a distance above `last` is beyond the limit. For a distance
-/// between the bounds, distance2() decides in double.
+/// A squared distance computed in T has at most five rounding errors, and each bound
+/// differs from the limit by 16. Between the bounds, distance2() decides in double.
 template <std::floating_point T>
 struct ReachT {
     double limit2 = -1; ///< The squared limit; if negative, nothing is within reach.
@@ -241,13 +239,10 @@ struct BallBlocks {
     GrowingArray<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 
-/// Finds the points within many balls of one radius. All balls visit one level of the
-/// tree before the next level, and finally the leaves. The search for a single ball
-/// waits for memory at each step. Different balls do not depend on each other, so that
-/// the processor can read memory for many of them at once.
-///
-/// For each ball the result is the same as that of KdTree8T::visit_blocks(), in the
-/// same order.
+/// Finds the blocks of KdTree8T::visit_blocks() for many balls of one radius, in the
+/// same order. All balls visit one level of the tree before the next level. The search
+/// for a single ball waits for memory at each step. For many balls the processor can
+/// read memory at once.
 /// \param tree    The tree.
 /// \param balls   The number of balls.
 /// \param center  Called as center(ball); returns the centre of a ball.
@@ -262,7 +257,6 @@ void find_in_balls(const KdTree8PartsT<T>& tree, std::size_t balls, Center cente
     const KdTree8Shape& shape = tree.shape;
     found.here.clear();
     found.blocks.clear();
-    if (!(radius >= T(0))) return;
     for (std::uint32_t ball = 0; ball < balls; ++ball) found.here.push_back({ball, 0});
     for (int level = 0; level < shape.levels; ++level) {
         const std::uint32_t all = level == 0 ? (1u << shape.root_children()) - 1 : 255u;

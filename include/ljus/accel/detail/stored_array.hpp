@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/accel/detail/stored_array.hpp
-/// \brief Two types of large arrays. A GrowingArray can grow without being in memory
-/// twice. A StoredArray is constant, in memory or in a mapped file.
+/// \brief Large arrays that grow without being in memory twice, or that are in a file.
 
 #include <cstddef>
 #include <cstdint>
@@ -61,7 +60,7 @@ struct AlignedMemory {
 
 /// An array of trivially copyable elements. It grows by std::realloc(), which in Linux
 /// moves the pages of a large array instead of copying them. A std::vector is in memory
-/// twice while it grows. A GrowingArray also compiles faster.
+/// twice while it grows, and compiles more slowly.
 template <typename Element>
 class GrowingArray {
     static_assert(std::is_trivially_copyable_v<Element> &&

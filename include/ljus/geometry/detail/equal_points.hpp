@@ -16,9 +16,8 @@
 
 namespace ljus::detail {
 
-// Finds points of a list by a hash table with linear probing. The table needs at most
-// 16 bytes per different point. The list must have fewer than 2^31 points, none of them
-// NaN.
+// Finds points of a list by a hash table with linear probing, of at most 16 bytes per
+// point. The list must have fewer than 2^31 points, none of them NaN.
 template <std::floating_point T>
 class EqualPoints {
 public:
@@ -27,7 +26,7 @@ public:
     // caller then stores the point at that index of the list.
     std::uint32_t find_or_add(const std::vector<Vec3T<T>>& points,
                               const Vec3T<T>& point, std::uint32_t next) {
-        if (2 * count_ >= slots_.size()) reserve(points, 2 * count_);
+        if (2 * count_ >= slots_.size()) reserve(points, count_ + 1);
         std::uint32_t& slot = slot_of(points, point);
         if (slot == empty) {
             slot = next;

@@ -42,17 +42,17 @@ concept FieldOnRay = requires(const L& line, T t) {
     { line.range(t, t) } -> std::same_as<IntervalT<T>>;
 };
 
-/// A field along a ray with `slope(a, b)`, which contains all slopes of f for t in [a,
-/// b].
+/// A field along a ray that also has `slope(a, b)`, which contains all slopes of f for
+/// t in [a, b], and `rounding()`, a bound on the rounding error of value().
 template <typename L, typename T>
 concept SlopeOnRay = FieldOnRay<L, T> && requires(const L& line, T t) {
     { line.slope(t, t) } -> std::same_as<IntervalT<T>>;
+    { line.rounding() } -> std::same_as<T>;
 };
 
 } // namespace detail
 
-/// A solver that steps along the ray. No step is so long that it could jump over the
-/// surface \cite hart1996.
+/// A solver that steps along the ray and never jumps over the surface \cite hart1996.
 struct SphereTracing {
     double tolerance = 1e-9; ///< The largest |f| at a hit.
     int max_steps = 2000;    ///< Number of steps after which the ray counts as a miss.
@@ -107,8 +107,8 @@ template <std::floating_point T, FieldOnRay<T> Line>
 /// An interval [a, b] is dropped if all values of f in it have the sign of f at the
 /// start of the ray. If the slope has one sign in [a, b], the values at a and b tell
 /// whether f is 0 in between. Otherwise the interval is halved, and the nearer half is
-/// tried first. The values are bounded by range(). If the field has a slope(), they are
-/// also bounded by f(m) + f'([a, b]) (b - a)/2, where m is the middle of the interval.
+/// tried first. The values are bounded by range(), and for a SlopeOnRay also by the
+/// value at the middle and the largest slope times (b - a)/2.
 /// \return The first t at which f has changed its sign, to the last bit. Nothing for a
 ///         miss, for NaN, or if the intervals run out. A ray that only touches the
 ///         surface may miss it.

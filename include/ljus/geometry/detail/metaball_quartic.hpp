@@ -35,10 +35,10 @@ struct BlobT {
 };
 using Blob = BlobT<float>; ///< BlobT in float.
 
-/// A solver. It splits the ray where the ray enters or leaves a blob and where the ray
-/// is nearest to a centre. In each span the field is a quartic, and the first sign
-/// change of this quartic is the hit. The field of a blob rises before the nearest
-/// point and falls after it, so that most spans have at most one sign change.
+/// A solver. It splits the ray where the ray enters or leaves a blob and where it is
+/// nearest to a centre. In each span the field is a quartic, and the first sign change
+/// of a quartic is the hit. The field of a blob rises before the nearest point and
+/// falls after it, so that most spans have at most one sign change.
 struct QuarticPieces {};
 
 /// A solver that finds the roots of the quartics by quartic_formula(), for comparison.
@@ -51,21 +51,20 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// The field of a blob along a ray. The field is \f$ w s^2 \f$ where
-/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere. The members give w, h,
-/// k and m. R is the radius of the blob.
+/// The field of a blob of radius R along a ray. The field is \f$ w s^2 \f$ where
+/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
     C leave = C(0);  ///< The t at which s becomes negative again.
     C middle = C(0); ///< m, the t at which the ray is nearest to the centre.
     C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
-    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D and the radius R.
+    C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
     C weight = C(1); ///< w, the weight of the blob.
 };
 
-/// The field of a blob along a ray. As in chord(), the vectors are subtracted before
-/// they are squared, to avoid cancellation.
+/// The field of a blob along a ray. The vectors are subtracted before they are squared,
+/// to avoid cancellation.
 /// \return The strand, in double. Nothing for a miss, for non-finite data, a zero
 ///         direction, or a radius not above 0.
 template <std::floating_point T>
@@ -192,30 +191,22 @@ template <std::floating_point C>
     return line;
 }
 
-template <std::floating_point T>
-struct QuarticRootsT {
-    std::array<T, 4> at{}; ///< The roots: the first `count` elements.
-    std::size_t count = 0; ///< Number of roots.
-    [[nodiscard]] const T* begin() const noexcept { return at.data(); }
-    [[nodiscard]] const T* end() const noexcept { return at.data() + count; }
-};
-
 /// The real roots of c[0] + c[1] x + ... + c[4] x^4 by radicals (Ferrari 1545), for
-/// comparison. Use roots() of a BernsteinT instead.
+/// comparison with roots().
 ///
 /// The polynomial is divided by c[4]. Let b be the new coefficient of x^3. The
 /// substitution \f$ x = y - b/4 \f$ gives \f$ y^4 + p y^2 + q y + r = 0 \f$. A root z
 /// of the resolvent \f$ z^3 - \frac p2 z^2 - r z + \frac{pr}{2} - \frac{q^2}{8} \f$
 /// turns this equation into a difference of two squares, which is a product of two
-/// quadratics. The steps subtract numbers that may be nearly equal, so that the result
-/// can be inaccurate.
+/// quadratics.
 /// \param c  The coefficients; c[4] is not 0.
-/// \return The roots. At least about half of their digits are correct if the roots are
-///         well separated and c[4] is not small; otherwise they are unreliable.
-/// \cost One cosine or cube root, and up to 4 square roots; no loop.
+/// \return The roots, unordered. At least about half of their digits are correct if the
+///         roots are well separated and c[4] is not small. Otherwise they are
+///         unreliable, because the steps subtract nearly equal numbers.
+/// \cost Two cube roots, or a cosine and its inverse; up to 5 square roots.
 /// \report{Section 2.1} \cite schwarze1990
 template <std::floating_point T>
-[[nodiscard]] QuarticRootsT<T> quartic_formula(const std::array<T, 5>& c) noexcept {
+[[nodiscard]] RootsT<T, 4> quartic_formula(const std::array<T, 5>& c) noexcept {
     const T b = c[3] / c[4], d = c[2] / c[4], e = c[1] / c[4], f = c[0] / c[4];
     const T p = d - T(3) / T(8) * b * b;
     const T q = e - b * d / T(2) + b * b * b / T(8);
@@ -239,28 +230,26 @@ template <std::floating_point T>
     constexpr T nothing = T(1e-9); // Schwarze's value for every quartic
     const auto positive = [](T x) { return std::abs(x) < nothing ? T(0) : x; };
     const T u2 = positive(z * z - r), v2 = positive(T(2) * z - p);
-    QuarticRootsT<T> result;
+    RootsT<T, 4> result;
     if (!(u2 >= T(0) && v2 >= T(0))) return result;
     const T w = std::copysign(std::sqrt(u2), q), v = std::sqrt(v2);
     for (const T sign : {T(-1), T(1)}) {
         const T half = -sign * v / T(2); // of y^2 + sign v y + z - sign w
         const T under = positive(half * half - (z - sign * w));
         if (!(under >= T(0))) continue;
-        result.at[result.count++] = half - std::sqrt(under) - b / T(4);
-        result.at[result.count++] = half + std::sqrt(under) - b / T(4);
+        result.add(half - std::sqrt(under) - b / T(4));
+        result.add(half + std::sqrt(under) - b / T(4));
     }
     return result;
 }
 
-/// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a).
+/// The field in a span [a, b] of a ray, as a quartic of u = (t - a)/(b - a). No strand
+/// may begin or end between a and b.
 ///
 /// The field of a strand is w s^2 with \f$ s = h - k (t - m)^2 \f$, see StrandT. Let
 /// \f$ \tau_a = a - m \f$ and \f$ \tau_b = b - m \f$. On [a, b] the Bernstein
 /// coefficients of s are \f$ h - k\tau_a^2,\ h - k\tau_a\tau_b,\ h - k\tau_b^2 \f$. The
 /// coefficients of s^2 are sums of products of these.
-/// \param line  The field along the ray.
-/// \param a     Start of the span.
-/// \param b     End of the span. No strand begins or ends between a and b.
 // [quartic]
 template <std::floating_point C>
 [[nodiscard]] BernsteinT<C, 4> quartic(const MetaballLineT<C>& line, C a,
@@ -309,7 +298,7 @@ template <std::floating_point C>
 /// \report{Section 2.1}
 /// \return The first t where f changes its sign; nothing for a miss.
 /// \cost A ray that meets n blobs has at most 3 n - 1 spans. For each span, n quartics
-///       are added, and first_change() finds at most 10 roots.
+///       are added, and first_change() finds at most 7 roots.
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)

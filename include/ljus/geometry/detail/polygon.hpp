@@ -32,9 +32,9 @@ struct CutPolygon {
 //
 // The corners are given counter-clockwise. A polygon of n corners gives n - 2
 // triangles, and one without an area gives none. Corners may coincide, for example
-// where a bridge connects a hole to the border. The cost is O(n h) if h of the corners
-// are hollow, that is, not convex. Only a hollow corner can lie in an ear, and cutting
-// an ear off affects only its two neighbours.
+// where a bridge connects a hole to the border. If h of n corners are hollow (not
+// convex), O(n h) tests suffice: only a hollow corner can lie in an ear, and cutting an
+// ear off affects only its two neighbours.
 [[nodiscard]] inline CutPolygon cut_polygon(std::span<const glm::dvec3> corners) {
     CutPolygon result;
     if (corners.size() < 3) return result;
