@@ -23,13 +23,6 @@ namespace ljus {
 
 namespace detail {
 
-/// The shading normal of a surface, flipped to the side of `wo`.
-/// \return Unit vector.
-template <std::floating_point T>
-[[nodiscard]] Vec3T<T> seen_normal(const VertexT<T>& vertex) noexcept {
-    return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
-}
-
 /// The radiance that some lobes of a material reflect or transmit along `wo` if the
 /// incident radiance on each side of the surface is the same in all directions. This
 /// radiance is the albedo times E / pi, where E is the irradiance. For a Lambertian

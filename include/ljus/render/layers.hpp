@@ -113,9 +113,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
                               return has(lobes(material), Lobes::non_specular);
                           });
         if (ends)
-            return {std::copysign(T(1), vertex->wo.z) * vertex->frame.normal,
-                    path.throughput / vertex->stop_probability *
-                        sample_albedo(world, *vertex, stream)};
+            return {seen_normal(*vertex), path.throughput / vertex->stop_probability *
+                                              sample_albedo(world, *vertex, stream)};
         const auto follow = [&](const auto& material) {
             return continue_path(path, *vertex, material, Transport::flux,
                                  Lobes::specular, stream);

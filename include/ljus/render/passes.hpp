@@ -92,7 +92,7 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
         settings.indirect == IndirectLight::cache || settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
     const bool cache = settings.indirect == IndirectLight::cache;
-    const bool looked_up = cache || settings.indirect == IndirectLight::gather;
+    const bool looked_up = detail::uses_points(settings.indirect);
     const bool caustic = lit && settings.caustics.photons > 0;
     const bool gloss = caustic && general && looked_up && found.narrow > 0;
     const bool caustics = gloss || (caustic && found.specular > 0);
@@ -135,12 +135,11 @@ template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string
 refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
     if (!world.has_fog()) return {};
-    if (settings.indirect == IndirectLight::gather ||
-        settings.indirect == IndirectLight::cache)
+    if (uses_points(settings.indirect))
         return "the scene has fog, and irradiance that is gathered or cached leaves "
                "its light out; let indirect light come by rays, map or photons, or "
                "remove the fog";
-    if (settings.skip.rule != SkipRule::none || settings.skip.indirect_rays)
+    if (skips_rays(settings.skip))
         return "the scene has fog, and photons that say which rays to skip do not know "
                "how much it dims; skip no rays, or remove the fog";
     return {};

@@ -123,9 +123,8 @@ requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
 /// The kinds of photons that the general map keeps.
 /// \param settings  The user's settings.
 [[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
-    const bool only_indirect = settings.indirect == IndirectLight::photons ||
-                               settings.indirect == IndirectLight::gather ||
-                               settings.indirect == IndirectLight::cache;
+    const bool only_indirect =
+        settings.indirect == IndirectLight::photons || uses_points(settings.indirect);
     if (only_indirect && !settings.keep_general_map)
         return one_kind(PhotonKind::indirect);
     return settings.general.shadow_photons ? all_kinds : light_kinds;
@@ -157,15 +156,6 @@ template <std::floating_point T>
     std::vector<PhotonT<T>> all;
     for (const auto& part : photons) all.insert(all.end(), part.begin(), part.end());
     return all;
-}
-
-/// Whether direct photons outnumber indirect ones two to one, as they do in the open.
-/// Irradiance points at indirect photons alone would then be too few.
-/// \param photons  The photons of the general pass.
-template <std::floating_point T>
-[[nodiscard]] bool lands_once(const PhotonPartsT<T>& photons) {
-    return count_of(photons, PhotonKind::direct) >
-           2 * count_of(photons, PhotonKind::indirect);
 }
 
 /// A remark about a general map with so few indirect photons that paths replace it.
@@ -254,7 +244,9 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     if (blurred && !maps.starved)
         maps.remarks.append(blurred_remark(indirect, settings) + "\n");
     if (maps.starved && !settings.keep_general_map) return maps;
-    if (choose && lands_once(photons)) kept = light_kinds;
+    // In the open most photons land once: points at indirect photons would be too few.
+    if (choose && count_of(photons, PhotonKind::direct) > 2 * indirect)
+        kept = light_kinds;
     if (verdicts || choose) keep_kinds(photons, kept);
     if (run.general_map) maps.general = map_of_parts(std::move(photons));
     return maps;
@@ -469,14 +461,12 @@ private:
                     {what, " needs an ability that is not listed: abilities<",
                      ability}));
         };
-        const bool gathers = settings.indirect == IndirectLight::gather ||
-                             settings.indirect == IndirectLight::cache;
-        require_ability(has<Gathering>, gathers, "indirect light by gathering",
+        require_ability(has<Gathering>, detail::uses_points(settings.indirect),
+                        "indirect light by gathering",
                         "Gathering> of ljus/render/gathering.hpp.");
-        require_ability(
-            has<Skipping>,
-            settings.skip.rule != SkipRule::none || settings.skip.indirect_rays,
-            "leaving out needless rays", "Skipping> of ljus/render/skipping.hpp.");
+        require_ability(has<Skipping>, detail::skips_rays(settings.skip),
+                        "leaving out needless rays",
+                        "Skipping> of ljus/render/skipping.hpp.");
         require_ability(has<Budgeting>,
                         settings.caustic_budget != CausticBudget::as_seen &&
                             settings.caustics.shares.empty(),

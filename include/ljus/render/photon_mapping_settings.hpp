@@ -31,12 +31,15 @@ enum class IndirectLight : std::uint8_t {
 
 namespace detail {
 
+/// Whether irradiance points are looked up where indirect rays end.
+[[nodiscard]] constexpr bool uses_points(IndirectLight indirect) noexcept {
+    return indirect == IndirectLight::gather || indirect == IndirectLight::cache;
+}
+
 /// Whether paths end at the second diffuse surface: a lookup there replaces all further
 /// bounces.
-/// \param indirect  The source of indirect light.
 [[nodiscard]] constexpr bool gathers(IndirectLight indirect) noexcept {
-    return indirect == IndirectLight::map || indirect == IndirectLight::gather ||
-           indirect == IndirectLight::cache;
+    return indirect == IndirectLight::map || uses_points(indirect);
 }
 
 } // namespace detail

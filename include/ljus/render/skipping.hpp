@@ -37,8 +37,11 @@ template <typename Mapper, std::floating_point T>
 template <typename Mapper, std::floating_point T>
 [[nodiscard]] bool needs_no_bounce(const Mapper& mapper, const VertexT<T>& vertex,
                                    Counts& counts) noexcept {
-    return detail::skips_bounce(mapper.template state<Skipping>().verdicts, vertex,
-                                counts);
+    const VerdictGridT<T>& grid = mapper.template state<Skipping>().verdicts;
+    if (!grid.dark_known || grid.indirect_near(detail::cell_of(grid, vertex)))
+        return false;
+    ++counts.skipped_bounces;
+    return true;
 }
 
 /// \}

@@ -121,7 +121,6 @@ public:
         }
         if (++parts_ == 16) add_part();
     }
-    /// The sum of weight times flux, in W.
     RgbT<double> sum() noexcept {
         if (parts_ > 0) add_part();
         return sum_;
@@ -199,12 +198,9 @@ private:
     int parts_ = 0;
 };
 
-/// Sums the weighted flux of the photons that arrive on one side of a disc.
-/// \param tree      The positions of the photons.
-/// \param records   The other data of the photons.
+/// Sums the weighted flux of the photons that arrive on one side of a disc, in W.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.
-/// \return The sum of weight times flux, in W.
 template <std::floating_point T, typename K>
 [[nodiscard]] LJUS_CORE_CLONES RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,
