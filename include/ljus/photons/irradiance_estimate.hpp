@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_estimate.hpp
-/// \brief Settings of density estimates, and the irradiance from photons around a point.
+/// \brief Settings of density estimates, and the irradiance from photons at a point.
 
 #include <array>
 #include <cmath>

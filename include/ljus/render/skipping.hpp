@@ -11,8 +11,7 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// The ability that PhotonMappingSettings::skip needs. Pass
-/// `abilities<Skipping>` to the renderer.
+/// The ability that PhotonMappingSettings::skip needs.
 struct Skipping {
     /// The data that a mapper keeps for skipping.
     template <std::floating_point T>
