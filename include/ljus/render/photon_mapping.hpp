@@ -4,7 +4,6 @@
 /// \brief The report's renderer: two photon maps, and rays from the camera.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <tuple>
 #include <utility>

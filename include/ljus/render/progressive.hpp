@@ -56,8 +56,8 @@ namespace detail {
 /// The means of blocks of pixels; blocks at the right and bottom edge may be smaller.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> means_of_blocks(const ImageT<T>& image, int side) {
-    const auto blocks = [side](int pixels) { return (pixels - 1) / side + 1; };
-    auto means = make_image<double>(blocks(image.width), blocks(image.height));
+    auto means = make_image<double>(int(block_count(image.width, side)),
+                                    int(block_count(image.height, side)));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const int columns = std::min(side, image.width - x / side * side);

@@ -4,7 +4,6 @@
 /// \brief Renders pictures: the loop over pixels.
 
 #include <algorithm>
-#include <optional>
 
 #include "ljus/image/filter.hpp"
 #include "ljus/image/image.hpp"

@@ -3,12 +3,9 @@
 /// \file ljus/photons/detail/flux_in_disc.hpp
 /// \brief The flux in a disc around a point, summed eight photons at a time.
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "ljus/accel/kd_tree8.hpp"
