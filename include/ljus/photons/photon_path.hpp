@@ -152,8 +152,8 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \param audit   Receives the absorbed flux, and the flux lost and gained by roulette.
 /// \return The new flux; nothing if the photon does not survive.
 /// \report{Section 3.2.2}
-/// \erratum{The report and its program do not divide the flux of a survivor by the
-/// probability, and so count the absorption twice.}
+/// \erratum{The report does not say that the flux of a survivor must be divided by the
+/// probability. Its program does not divide it, and so counts the absorption twice.}
 // [roulette]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,
@@ -338,10 +338,9 @@ struct SentPhotonT {
 
 /// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
-/// A photon that has met only mirrors and glass, L S+ D, is stored in the caustics map
-/// and not in the general map. If PhotonPassSettings::gloss_as_mirrors is true, a
-/// glossy surface counts as a mirror. After such a surface, the photon is stored only
-/// at surfaces with a diffuse lobe.
+/// If PhotonPassSettings::gloss_as_mirrors is true, a glossy surface counts as a
+/// mirror. After such a surface, the photon is stored only at surfaces with a diffuse
+/// lobe.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and
 ///                where a wavelength is chosen.

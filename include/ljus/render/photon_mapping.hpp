@@ -30,7 +30,7 @@ namespace ljus {
 /// | E S* L          | emission, while no diffuse surface has been met             |
 /// | E ... D L       | shadow rays, or the verdict of shadow photons               |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
-/// | E ... D ... D.. | indirect rays, or the general map where the first ray ends  |
+/// | E ... D ... D.. | indirect rays, or a lookup as IndirectLight describes       |
 ///
 /// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
 /// scatters light towards the eye along each ray of a camera path. Of this light,

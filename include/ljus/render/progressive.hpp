@@ -264,8 +264,7 @@ settings_for_passes(const W& world, const PhotonMappingSettings& settings,
 /// \param picture   Size; rays per pixel in one pass.
 /// \param pass      The number of the pass, from 1.
 /// \param scale     Factor of the radii, in (0, 1].
-/// \param listed     As for a PhotonMapper; StratifiedStream for several rays per
-///                   pixel.
+/// \param listed    As for a PhotonMapper; StratifiedStream for several rays per pixel.
 /// \return The picture; not complete if a progress callback stopped it.
 /// \throws std::invalid_argument  if a radius is 0: each pass would choose its own
 ///         radius, and none would shrink.
