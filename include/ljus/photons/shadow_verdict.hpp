@@ -81,12 +81,11 @@ struct PhotonCounts {
     std::uint32_t shadow = 0;
 };
 
-/// The rule of the report ignores the photons of one kind if photons of the other kind
-/// are more frequent by more than this factor.
+/// The rule of the report ignores the photons of one kind if there are more than this
+/// number of times as many of the other kind.
 inline constexpr std::uint64_t report_ratio = 1200;
 
-/// The verdict of the photons around a point.
-/// \param rule    The rule; not SkipRule::none.
+/// The verdict of the photons around a point, by a rule other than SkipRule::none.
 /// \param needed  The result of photons_needed().
 // [judge]
 [[nodiscard]] constexpr Verdict judge(const PhotonCounts& found, SkipRule rule,

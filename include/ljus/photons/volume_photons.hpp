@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/volume_photons.hpp
-/// \brief Photons at the points where fog scatters them, and the radiance of a ray from
-/// such photons.
+/// \brief Photons where fog scatters them, and the radiance of a ray from such photons.
 
 #include <array>
 #include <cmath>

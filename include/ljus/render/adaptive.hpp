@@ -60,8 +60,7 @@ struct AdaptiveSettings {
 /// Checks the settings of adaptive sampling.
 /// \param rule     The settings.
 /// \param samples  Largest mean number of rays per pixel.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 inline void check(const AdaptiveSettings& rule, int samples) {
     const bool by_others = rule.disagreement > 0 && rule.target == 0;
     require_at_least("first", rule.first, by_others ? 1 : 2);

@@ -109,8 +109,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                lookup.irradiance, lookup.points->disc, context);
 }
 
-/// The radiance that a glossy surface reflects to the viewer of light straight from
-/// lamps, and of the light of the caustics map.
+/// The radiance that a glossy surface reflects to the viewer, of two kinds of light
+/// only: straight from lamps, and from the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,

@@ -32,8 +32,7 @@ struct PathTracingSettings {
 };
 
 /// Checks the settings.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 inline void check(const PathTracingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require(settings.roulette_threshold >= 0, "roulette_threshold",

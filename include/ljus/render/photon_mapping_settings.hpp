@@ -99,8 +99,7 @@ struct PhotonMappingSettings {
 };
 
 /// Checks the settings.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 [[gnu::cold]] inline void check(const PhotonMappingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);

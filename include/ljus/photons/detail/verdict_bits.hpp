@@ -185,8 +185,7 @@ template <std::floating_point T>
 
 /// A counted photon.
 struct Witness {
-    /// The photon's cell: 64 times the index of the brick plus the index within the
-    /// brick.
+    /// The photon's cell: 64 times the index of the brick plus the index within it.
     std::uint32_t where = 0;
     bool shadow = false; ///< True for a shadow photon, false for a direct one.
 };
