@@ -132,7 +132,7 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
 
-/// The objects at which the photons of a caustics map are aimed; none for a general map.
+/// The objects at which the photons of a caustics map are sent; none for a general map.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
                                                const PhotonPassSettings& pass) {
