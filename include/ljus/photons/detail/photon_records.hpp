@@ -126,7 +126,7 @@ public:
         // Records are first moved into groups that fit into a cache, and then sorted
         // within each group. This causes fewer cache misses.
         constexpr std::size_t group = 4096;
-        GrowingArray<std::size_t> next; // the first unsettled place of each group
+        GrowingArray<std::size_t> next; // the first unsettled index of each group
         for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
         for (std::size_t g = 0; g < next.size(); ++g)
             for (const std::size_t end = std::min((g + 1) * group, size_);
