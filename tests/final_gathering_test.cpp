@@ -525,6 +525,10 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
         CHECK(double(even.radius) ==
               ljus_test::within(4 * std::sqrt(double(k) / (pi * 20000)), 0.1));
     }
+    const PhotonMap even = even_photons(2000, 5);
+    const auto most =
+        make_irradiance_points(world, even, PhotonMap{}, {.nearest = 512}, 1, 3);
+    CHECK(most.radius == 4 * typical_radius(even, 511)); // its largest number
     for (const auto& record : of_pairs(0, 1).records)
         CHECK(is_finite(record.irradiance));
 }

@@ -120,8 +120,8 @@ ljus_break_it(NAME final-gathering-seen-side HEADER render/final_gathering.hpp
 # Whatever is asked for, the radius is that of 32 photons.
 ljus_break_it(NAME final-gathering-chosen HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "typical_radius(general, settings.nearest)"
-    TO   "typical_radius(general, 32)"
+    FROM "std::min<std::size_t>(settings.nearest, 511)"
+    TO   "32"
     CASES "final gathering: points at photons*")
 
 # A step lower than the disc is wide is a way on.

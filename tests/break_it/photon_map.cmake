@@ -107,8 +107,8 @@ ljus_break_it(NAME together-room HEADER accel/detail/kd_tree8_walk.hpp TEST phot
     CASES "photon_map: estimates that are*")
 ljus_break_it(NAME together-side HEADER photons/density_estimate.hpp
     TEST photon_map
-    FROM "std::copysign(T(1), vertex.wo.z) * vertex.frame.normal"
-    TO   "vertex.frame.normal"
+    FROM "place.from = seen_normal(vertex)"
+    TO   "place.from = vertex.frame.normal"
     CASES "photon_map: estimates that are*")
 
 # The disc of the k nearest is as high as the widest one.

@@ -86,9 +86,8 @@ ljus_break_it(NAME photon-mapping-split HEADER render/photon_mapping.hpp
 # With a cache a path that has come by gloss is not gathered where it ends.
 ljus_break_it(NAME photon-mapping-cache-gathers HEADER render/photon_mapping_settings.hpp
     TEST photon_mapping_steps
-    FROM "indirect == IndirectLight::gather ||
-           indirect == IndirectLight::cache;"
-    TO   "indirect == IndirectLight::gather;"
+    FROM "indirect == IndirectLight::map || uses_points(indirect)"
+    TO   "indirect == IndirectLight::map || indirect == IndirectLight::gather"
     CASES "photon mapping: behind a glossy*")
 
 # Once a path has split, roulette spares it behind matt surfaces, too.

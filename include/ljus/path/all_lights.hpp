@@ -44,7 +44,7 @@ struct SeenLampT {
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
                                                     const VertexT<T>& vertex) {
-    const Vec3T<T> normal = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
+    const Vec3T<T> normal = seen_normal(vertex);
     const Vec3T<T>& from = vertex.point.position;
     return world.visit_light(
         light, [&](const auto& lamp) -> std::optional<SeenLampT<T>> {

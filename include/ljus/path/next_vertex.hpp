@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -57,6 +58,12 @@ struct VertexT {
 using Vertex = VertexT<float>; ///< VertexT in float.
 
 namespace detail {
+
+/// The shading normal of a surface on the side of `wo`; unit vector.
+template <std::floating_point T>
+[[nodiscard]] Vec3T<T> seen_normal(const VertexT<T>& vertex) noexcept {
+    return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
+}
 
 template <AnyWorld W>
 [[nodiscard]] bool uses_uv(const W& world, MaterialId material) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -45,10 +44,9 @@ struct AimedPhotonT {
 };
 
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
-/// emits \f$1/4\pi\f$ of its flux per steradian. All photons go into the cone of
-/// \f$2\pi(1 - \cos\theta)\f$ steradians around the ball, where theta is half the
-/// opening angle of the cone. The photons share the flux that the light emits into this
-/// cone.
+/// emits \f$1/4\pi\f$ of its flux per steradian. The photons share the flux into the
+/// cone of \f$2\pi(1 - \cos\theta)\f$ steradians around the ball, where theta is half
+/// the opening angle.
 /// \param light  A point light.
 /// \param ball   The target. The light must be outside the ball.
 /// \param u      Point of the unit square; chooses the direction in the cone.
@@ -107,12 +105,11 @@ template <AnyWorld W, std::floating_point T>
 // [aim_at]
 
 /// A target that was chosen at random.
-/// \tparam Aim  A description of how to aim at a target, such as AimT. Its member
-///              `size` is the weight.
+/// \tparam Aim  How to aim at a target, such as AimT. Its member `size` is the weight.
 template <typename Aim>
 struct ChosenTargetT {
-    ObjectId target;            ///< The object.
-    Aim at;                     ///< How to aim at the object.
+    ObjectId target;
+    Aim at;
     decltype(Aim::size) sum{0}; ///< Sum of the weights of all targets.
 };
 
@@ -147,12 +144,12 @@ template <std::floating_point T, typename AimOf>
 
 template <std::floating_point T>
 struct AimedDirectionT {
-    Vec3T<T> direction{T(0)}; ///< Unit vector.
+    Vec3T<T> direction{T(0)};
     T pdf = T(0); ///< The density per steradian, times the probability of the object.
-    ObjectId target{}; ///< The object.
+    ObjectId target{};
 };
 
-/// The random numbers of an aimed photon, in the order in which they are drawn.
+/// The random numbers of an aimed photon, in the order in which aim() draws them.
 template <std::floating_point T>
 struct AimNumbersT {
     T probability; ///< Probability of the light, which is chosen first.
@@ -163,18 +160,12 @@ struct AimNumbersT {
     T time;               ///< Time of the photon.
 };
 
-template <std::floating_point T>
-struct LeavingAimedT {
-    /// The photon; the flux is divided by the light's probability.
-    LeavingPhotonT<T> photon{};
-    ObjectId target{}; ///< The object at which the photon is aimed.
-};
-
 /// Aims a photon of a distant light at a target, uniformly over the cross section of
 /// its bounding sphere.
-/// \return Nothing if the bounding spheres of all targets have the radius 0.
+/// \return The photon, without its time and its light. Nothing if the bounding spheres
+///         of all targets have the radius 0.
 template <AnyWorld W, FarLight L, std::floating_point T>
-[[nodiscard]] std::optional<LeavingAimedT<T>>
+[[nodiscard]] std::optional<AimedPhotonT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
            const AimNumbersT<T>& u) {
     struct Disc {
@@ -190,17 +181,15 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
     if (!aimed) return std::nullopt;
     const SphereT<T>& bound = aimed->at.bound;
     const ArrivalT<T> arrival = sample_arrival(light, u.u_direction);
-    return LeavingAimedT<T>{{ray_from_afar(SphereT<T>(light.around), arrival.direction,
-                                           bound.center, bound.radius, u.u_point),
-                             arrival.irradiance * (aimed->sum / u.probability)},
-                            aimed->target};
+    return AimedPhotonT<T>{
+        {.ray = ray_from_afar(SphereT<T>(light.around), arrival.direction, bound.center,
+                              bound.radius, u.u_point),
+         .flux = arrival.irradiance * (aimed->sum / u.probability)},
+        aimed->target};
 }
 
 /// Samples a direction from a point of a near light to one of the targets: uniformly in
 /// a cone, or uniformly over the area of a flat object; see aim_at().
-/// \param emission  The cone of all directions of emission.
-/// \param from      The point of the light.
-/// \param targets   The targets.
 /// \return Nothing if the bounding spheres of all targets have the radius 0, or if the
 ///         chosen target is flat and is seen edge-on or contains `from`.
 template <AnyWorld W, std::floating_point T>
@@ -234,10 +223,10 @@ sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
 }
 
 /// Aims a photon of a near light at a target.
-/// \return Nothing as for sample_aim(), or if the light does not emit towards the
-///         target.
+/// \return The photon, without its time and its light. Nothing as for sample_aim(), or
+///         if the light does not emit towards the target.
 template <AnyWorld W, NearLight L, std::floating_point T>
-[[nodiscard]] std::optional<LeavingAimedT<T>>
+[[nodiscard]] std::optional<AimedPhotonT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
            const AimNumbersT<T>& u) {
     const auto point = emission_point(light, u.u_point, u.time);
@@ -247,9 +236,9 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
     const auto& [direction, pdf, target] = *aimed;
     const T emitted = pdf_emission(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
-    return LeavingAimedT<T>{
-        {leave(point, direction),
-         flux_leaving(light, point) * (emitted / (pdf * u.probability))},
+    return AimedPhotonT<T>{
+        {.ray = leave(point, direction),
+         .flux = flux_leaving(light, point) * (emitted / (pdf * u.probability))},
         target};
 }
 
@@ -268,8 +257,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.
 /// \param stream   Six numbers are drawn, and one more if a shape moves.
-/// \return The photon. Nothing if the light does not emit towards the target, or if the
-///         bounding spheres of all targets have the radius 0.
+/// \return The photon. Nothing if the light does not emit towards the target, or sees
+///         it edge-on or as a point.
 /// \cost One cone per target.
 /// \report{Section 3.2.2.2} \cite jensen1996
 /// \erratum{The report's program does not divide by the density of the direction, and
@@ -292,10 +281,8 @@ aim(const W& world, const LightChoice& choice, std::span<const ObjectId> targets
     });
     if (!aimed) return std::nullopt;
     aimed->photon.ray.time = u.time;
-    return AimedPhotonT<T>{{.ray = aimed->photon.ray,
-                            .flux = aimed->photon.flux,
-                            .light = static_cast<std::uint16_t>(chosen.light)},
-                           aimed->target};
+    aimed->photon.light = static_cast<std::uint16_t>(chosen.light);
+    return aimed;
 }
 
 /// Refuses fractions of the photons that do not add up to 1.

@@ -56,20 +56,18 @@ struct CausticPilot {
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
     double area = 0;        ///< Area of the caustic: flux divided by mean irradiance.
     double absolute = 0;    ///< Scatter of the irradiance, in W.
-    /// The scatter, as in share_out(), of the irradiance divided by the mean irradiance
-    /// of the caustic; in squared scene units.
+    /// Scatter of the irradiance divided by the mean irradiance of the caustic, in
+    /// squared scene units.
     double relative = 0;
-    /// The scatter, as in share_out(), of the irradiance divided by the irradiance of
-    /// all light; in squared scene units.
+    /// Scatter of the irradiance divided by the irradiance of all light, in squared
+    /// scene units.
     double visible = 0;
 };
 
 namespace detail {
 
-/// The irradiance around a photon, on the side of the surface on which it arrived.
-/// \param map     The photons to sum. Shadow photons do not count.
-/// \param radius  Search radius, in scene units.
-/// \return Luminance of the irradiance, in W/m^2.
+/// The luminance of the irradiance around a photon, in W/m^2, on the side on which the
+/// photon arrived. Shadow photons of the map do not count.
 template <std::floating_point T>
 [[nodiscard]] double irradiance_around(const PhotonMapT<T>& map, const PhotonT<T>& at,
                                        T radius) {
@@ -228,8 +226,8 @@ struct AllAlike {
 } // namespace detail
 
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each light contributes to a map. Nine tenths of the photons are distributed as by
-/// share_out(), with the scatter a_k of light k given by
+/// each light contributes to a map. Nine tenths of the photons are distributed in
+/// proportion to the scatter a_k of light k, given by
 /// \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the light, where
 /// \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight. One tenth is
 /// distributed in proportion to power. The variance is therefore at most ten times that

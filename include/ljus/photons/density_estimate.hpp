@@ -27,8 +27,8 @@ template <typename Material, typename K>
 
 } // namespace detail
 
-/// The plain counterpart of estimate_radiance() with a fixed radius. It adds one photon
-/// at a time. The arguments are those of estimate_radiance().
+/// The plain counterpart of estimate_radiance(), with the same arguments and a fixed
+/// radius: it adds one photon at a time.
 /// \return Radiance, in W/(m^2 sr).
 // [plain estimate]
 template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
@@ -119,7 +119,7 @@ namespace detail {
 template <std::floating_point T>
 struct EstimatePlaceT {
     Vec3T<T> center{T(0)}; ///< The point, in scene units.
-    /// Normal of the surface, to be compared with the normals of photons.
+    /// Geometric normal, to be compared with the normals of photons.
     Vec3T<T> normal{T(0)};
     Vec3T<T> from{T(0)};      ///< Unit normal on the visible side; see FluxDiscT.
     RgbT<T> brdf{T(0)};       ///< BRDF of the surface, per steradian.
@@ -127,19 +127,15 @@ struct EstimatePlaceT {
     std::uint32_t item = 0;   ///< Identifies the request to the caller.
 };
 
-/// Makes a request for the estimate that estimate_radiance() gives at a vertex, for the
-/// direction vertex.wo.
-/// \param place       Receives the request. Writing in place avoids a store-forwarding
-///                    stall.
-/// \param throughput  Throughput of the path.
-/// \param item        Identifies the request to the caller.
+/// Makes a request for the estimate at a vertex, for the direction vertex.wo. Writing
+/// the request in place avoids a store-forwarding stall.
 template <std::floating_point T>
 void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
                const LambertianT<T>& material, const RgbT<T>& throughput,
                std::uint32_t item) noexcept {
     place.center = vertex.point.position;
     place.normal = vertex.point.normal;
-    place.from = std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
+    place.from = seen_normal(vertex);
     place.brdf = evaluate(material, vertex.wo, vertex.wo);
     place.throughput = throughput;
     place.item = item;
@@ -147,9 +143,7 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 
 /// Computes estimate_radiance() at many points, with the same results to the last bit.
 /// It is faster, because the waits for memory overlap.
-/// \param places    The requests.
 /// \param gather    The settings. They must satisfy in_lanes(); `nearest` must be 0.
-/// \param kinds     The kinds of photons that count.
 /// \param gathered  A counter. The number of photons in the discs is added to it.
 /// \param found     A buffer for the search, which can be used again.
 /// \param give      Called as give(place, radiance), in the order of the requests. A

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_estimate.hpp
-/// \brief The settings of density estimates, and the irradiance from the photons around
-/// a point.
+/// \brief Settings of density estimates, and the irradiance from photons at a point.
 
 #include <array>
 #include <cmath>
@@ -34,19 +33,16 @@ inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 } // namespace detail
 
 /// Settings of a density estimate.
-/// \tparam K  Kernel, for a kernel of the library that is chosen at run time; or your
-///            own type of kernel, see KernelLike.
+/// \tparam K  Kernel, whose value is chosen at run time, or your own KernelLike type.
 template <KernelLike K>
 struct DensityEstimateOf {
     float radius = 0.1f; ///< Search radius in scene units, from 1e-15 to 1e15.
-    /// If this is 0, all photons within the radius count. Otherwise it is k: only the k
-    /// nearest photons within the radius count.
+    /// If above 0, only this number of nearest photons within the radius count.
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
-    /// Half the height of the disc, divided by the radius of the disc. A small value
-    /// excludes photons of parallel walls. A value of 0.5 is enough for a ball that is
-    /// at least as large as the disc: the disc then contains the surface of the ball
-    /// within the radius.
+    /// Half the height of the disc, divided by its radius. A small value excludes
+    /// photons of parallel walls. With 0.5 the disc contains the surface within the
+    /// radius on any ball of at least this radius.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.
@@ -54,14 +50,13 @@ using DensityEstimateSettings = DensityEstimateOf<Kernel>;
 
 namespace detail {
 
-/// Refuses a number of nearest photons for which there is no estimate.
 inline void check_nearest(std::size_t nearest) {
     require(nearest != 1 && nearest <= max_nearest, "gather.nearest",
             static_cast<long long>(nearest),
             "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
 
-/// Refuses a radius, a thickness or a number of nearest photons out of range.
+/// Checks all settings but the kernel.
 template <typename K>
 void check_disc(const DensityEstimateOf<K>& gather) {
     require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
@@ -98,8 +93,7 @@ struct DiscSum {
 };
 
 /// Divides a sum over a disc by the area of the disc.
-/// \param sum      Sum of weight times flux in W, or of weight times flux times BRDF.
-/// \param radius2  Squared radius of the disc.
+/// \param sum  Sum of weight times flux in W, or of weight times flux times BRDF.
 /// \return Irradiance in W/m^2 or, with a BRDF, radiance in W/(m^2 sr).
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> per_area(const RgbT<double>& sum, double radius2) noexcept {
@@ -123,12 +117,9 @@ struct NearestPhotons {
 
 /// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is
 /// left out. If there are fewer than k photons within `radius`, all of them are
-/// returned.
-/// \param point   Point of a surface; its position and normal are used.
-/// \param radius  The largest radius, in scene units.
+/// returned. Photons that are turned_away() never count.
 /// \param room    Space for k elements, at most max_nearest.
-/// \param wanted  wanted(index, record) returns whether the photon counts. Photons that
-///                are turned_away() never count.
+/// \param wanted  wanted(index, record) returns whether the photon counts.
 template <std::floating_point T, typename Wanted>
 [[nodiscard]] LJUS_CORE_CLONES NearestPhotons
 nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radius,
@@ -145,10 +136,7 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
             full ? room[0].distance2 : double(radius) * double(radius)};
 }
 
-/// Sums over the k nearest photons, one by one.
-/// \param point     Point of a surface; its position and normal are used.
-/// \param gather    The settings; `nearest` is k.
-/// \param kinds     The kinds of photons that count.
+/// Sums over the k nearest photons, one by one, where k is gather.nearest.
 /// \param gathered  A counter. The number of summed photons is added to it.
 /// \param factor    Called with a PhotonRecordT; returns a factor of the flux.
 /// \return The sum; 0 if all k photons lie at one point, where the disc has no area.
@@ -194,9 +182,7 @@ flux_disc(const Vec3T<T>& position, const Vec3T<T>& normal, const Vec3T<T>& side
 
 /// Sums the flux that arrives on one side of a surface within a fixed radius, eight
 /// photons at a time.
-/// \param point     Point of a surface; its position and normal are used.
-/// \param side      Unit normal on this side. Photons that arrive on it are summed.
-/// \param kinds     The kinds of photons that count.
+/// \param side      Unit normal on this side.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.
 template <std::floating_point T, KernelLike<T> K>

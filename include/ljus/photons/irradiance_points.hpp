@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_points.hpp
-/// \brief Irradiance that is precomputed at the positions of some photons, for gather
-/// rays.
+/// \brief Irradiance that is precomputed at some photons, for gather rays.
 
 #include <algorithm>
 #include <array>
@@ -71,9 +70,7 @@ template <std::floating_point T>
 }
 
 /// Whether a point lies above or below a disc that is as high as its radius.
-/// \param way      The vector from the centre of the disc to the point.
-/// \param normal   Unit normal of the disc.
-/// \param radius2  Squared radius of the disc.
+/// \param way  The vector from the centre of the disc to the point.
 template <std::floating_point T>
 [[nodiscard]] bool leaves_disc(const Vec3T<T>& way, const Vec3T<T>& normal,
                                T radius2) noexcept {
@@ -131,13 +128,11 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
 
 namespace detail {
 
-/// The irradiance from all lights at a lookup point: the mean over the time for which
-/// the shutter is open.
+/// The irradiance from all lights at a lookup point, in W/m^2: the mean over the time
+/// for which the shutter is open.
 /// \param resting  The point at time 0.
 /// \param rays     Number of shadow rays per light. If a shape moves, the rays have
 ///                 different times.
-/// \param context  Its stream gives random numbers.
-/// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> direct_at_point(const W& world, const VertexT<T>& resting,
                                       int rays, Context& context) {
@@ -164,15 +159,12 @@ template <AnyWorld W, std::floating_point T, typename Context>
     return direct(resting, rays);
 }
 
-/// The irradiance at a lookup point: direct light by shadow rays, caustics and indirect
-/// light from the maps.
-/// \param general   The general map. The indirect photons that are not lookup points
-///                  are used.
+/// The irradiance at a lookup point, in W/m^2: direct light by shadow rays, caustics
+/// and indirect light from the maps.
+/// \param general   Its indirect photons that are not lookup points are used.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
 /// \param radius    The largest radius of an estimate, in scene units.
-/// \param context   Its stream gives random numbers.
-/// \return W/m^2.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
                                           const PhotonMapT<T>& caustics,
@@ -203,9 +195,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 } // namespace detail
 
-/// Precomputes the irradiance at every n-th photon of the general map. It is the sum of
-/// direct light by shadow rays, of indirect light from the general map, and of
-/// caustics.
+/// Precomputes the irradiance at every n-th photon of the general map: direct light by
+/// shadow rays, indirect light from the general map, and caustics.
 /// \param world     The closed scene.
 /// \param general   The general map.
 /// \param caustics  The caustics map; may be empty.
@@ -221,9 +212,10 @@ template <AnyWorld W, std::floating_point T>
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < general.records.size(); ++i)
         if (detail::is_point(general, i, settings.every)) chosen.push_back(i);
-    const T radius = settings.radius > 0
-                         ? T(settings.radius)
-                         : 4 * typical_radius(general, settings.nearest);
+    // typical_radius() accepts one photon fewer than an estimate.
+    const std::size_t count = std::min<std::size_t>(settings.nearest, 511);
+    const T radius =
+        settings.radius > 0 ? T(settings.radius) : 4 * typical_radius(general, count);
     std::vector<Vec3T<T>> positions(chosen.size());
     std::vector<IrradianceAtT<T>> records(chosen.size());
     const auto work_out = [&](std::size_t i) {
@@ -258,9 +250,8 @@ template <AnyWorld W, std::floating_point T>
     return points;
 }
 
-/// The irradiance at the nearest lookup point with a similar normal. The lookup point
-/// must lie in a disc around `position`. Both the radius and the height of the disc are
-/// points.radius.
+/// The irradiance at the nearest lookup point with a similar normal, in a disc around
+/// `position` whose radius and height are points.radius.
 /// \param points    The lookup points.
 /// \param position  A point of a surface.
 /// \param normal    Unit normal on the side of the irradiance.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/irradiance_settings.hpp
-/// \brief Settings of precomputed irradiance.
+/// \brief Settings of irradiance points.
 
 #include <cstddef>
 

@@ -32,8 +32,7 @@ enum class Kernel : std::uint8_t {
     box,  ///< The constant 1, as in the report.
     cone, ///< 1 - d/r: Jensen's cone filter with the constant k = 1 \cite jensen2001.
     gaussian, ///< exp(-2 d^2 / r^2), up to d = r.
-    /// 1 - d^2/r^2, for the distance d and the radius r. This kernel has the least
-    /// variance at equal bias \cite silverman1986.
+    /// 1 - d^2/r^2: the least variance at equal bias \cite silverman1986.
     epanechnikov,
     biweight ///< (1 - d^2/r^2)^2, which is smooth at the border.
 };
@@ -43,9 +42,8 @@ enum class Kernel : std::uint8_t {
 /// \param x       Squared distance over squared radius, in [0, 1].
 /// \return At least 0. The mean over the disc is 1.
 /// \report{Section 3.2.6}
-/// \erratum{The report's program multiplies by 1 - d/r, with distance d and radius r,
-/// but without the factor 3 that conserves the flux. The brightness is corrected by
-/// hand.}
+/// \erratum{The report's program multiplies by 1 - d/r without the factor 3 that
+/// conserves the flux, and corrects the brightness by hand.}
 // [kernel]
 template <std::floating_point T>
 [[nodiscard]] T kernel_weight(Kernel kernel, T x) noexcept {

@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/kernel_border.hpp
-/// \brief The fraction of a kernel's disc that lies on a surface, for points near the
-/// edge of the surface.
+/// \brief The fraction of a kernel's disc that lies on a surface.
 
 #include <cmath>
 #include <numbers>
@@ -33,9 +32,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Finds the surface near a point by a short ray against the normal.
-/// \param height  The ray starts at this height above the point, and ends as far below.
-/// \return The vertex; nothing if the ray hits nothing.
+/// Finds the surface near a point by a short ray against the normal, from `height`
+/// above the point to `height` below it.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<VertexT<T>>
 vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T height) {
@@ -49,8 +47,7 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
     return vertex;
 }
 
-/// Whether a surface continues at a point. It does if vertex_below() finds a surface
-/// with the same normal.
+/// Whether vertex_below() finds a surface with the same normal.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {

@@ -43,8 +43,7 @@ inline void check(const LightPathSettings& settings) {
             "the merging radius", settings.radius, "finite and at least 0");
 }
 
-/// A vertex of a light path: a photon with the data of its surface and with its weights
-/// \cite lafortune1993.
+/// A vertex of a light path \cite lafortune1993.
 template <std::floating_point T>
 struct LightVertexT {
     VertexT<T> vertex{};      ///< The surface. It has a lobe that is not specular.
@@ -56,7 +55,7 @@ struct LightVertexT {
     std::string letters{};
 };
 
-/// Light paths with their vertices.
+/// Light paths.
 template <std::floating_point T>
 struct LightPathsT {
     std::vector<LightVertexT<T>> vertices{}; ///< The vertices, path by path.
@@ -81,11 +80,10 @@ struct LightStartT {
     PathStateT<T> path{};
     /// The point of the light; the normal is 0 for a point light.
     SurfacePointT<T> point{};
-    ChosenLightT<T> light{}; ///< Number and probability of the light.
+    ChosenLightT<T> light{};
 };
 
 /// Starts a light path as emit() does. The result also has the point of the light.
-/// \param stream  Five numbers are drawn.
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] auto start_light_path(const W& world, Stream& stream) {
     using T = typename W::Scalar;
@@ -141,8 +139,6 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 // [light path]
 
 /// Refuses lights, shapes and materials that light paths do not support.
-/// \throws std::invalid_argument  if a light is neither a lamp nor a point nor a spot,
-///         a shape moves, or a material disperses light.
 template <AnyWorld W>
 [[gnu::cold]] void require_joints(const W& world) {
     for (std::uint32_t i = 0; i < world.light_count(); ++i)

@@ -25,8 +25,7 @@ enum class PhotonKind : std::uint8_t {
     fog       ///< Fog scatters the photon; see \ref volume_photons.
 };
 
-/// A set of kinds. Each kind has one bit: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16
-/// fog.
+/// A set of kinds. Bits: 1 direct, 2 caustic, 4 indirect, 8 shadow, 16 fog.
 struct PhotonKinds {
     std::uint8_t bits = 0; ///< The kinds in the set.
 
@@ -59,10 +58,9 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Whether the normal of a photon differs by more than 60 degrees from another normal,
+/// Whether the normal of a photon differs by more than 60 degrees from a unit normal,
 /// for example on the next wall of a corner or on the back of a thin wall.
 /// \param photon  Normal of the photon. If it is 0, the result is false.
-/// \param normal  The other normal; unit vector.
 // [turned_away]
 template <std::floating_point T>
 [[nodiscard]] bool turned_away(const SmallNormal& photon,
@@ -90,8 +88,7 @@ struct PhotonT {
 };
 using Photon = PhotonT<float>; ///< PhotonT in float: 44 bytes.
 
-/// The side of a surface on which a photon arrives: +1 for the side of the normal, -1
-/// for the other side.
+/// The side on which a photon arrives: +1 for the side of the normal, otherwise -1.
 // [photon_side]
 template <std::floating_point T>
 [[nodiscard]] int photon_side(const Vec3T<T>& direction,
@@ -106,11 +103,10 @@ struct FluxAudit {
     RgbT<double> emitted{0};  ///< Flux that lights have emitted.
     RgbT<double> absorbed{0}; ///< Flux that materials and media have absorbed.
     RgbT<double> escaped{0};  ///< Flux that has left the scene.
-    /// Flux of paths that end at the depth limit, or at an object that is not their
-    /// target.
+    /// Flux of paths that end at the depth limit or miss their target.
     RgbT<double> cut{0};
-    /// Flux lost minus flux gained by random decisions: by Russian roulette, and by the
-    /// choice of a wavelength. Its mean is 0.
+    /// Flux lost minus flux gained by Russian roulette and by the choice of a
+    /// wavelength. Its mean is 0.
     RgbT<double> roulette{0};
 
     /// Adds another audit.

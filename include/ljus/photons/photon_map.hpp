@@ -15,7 +15,7 @@ namespace ljus {
 /// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
 /// \{
 
-/// Photons in a k-d tree. The general map and the caustics map are both of this type.
+/// Photons in a k-d tree: a general map or a caustics map.
 template <std::floating_point T>
 struct PhotonMapT {
     KdTree8T<T> tree;                  ///< The positions.
@@ -28,7 +28,6 @@ using PhotonMap = PhotonMapT<float>; ///< PhotonMapT in float.
 
 namespace detail {
 
-/// Photons in several lists.
 template <std::floating_point T>
 using PhotonPartsT = std::vector<std::vector<PhotonT<T>>>;
 
@@ -38,9 +37,7 @@ template <std::floating_point T>
     return std::abs(glm::dot(direction, direction) - T(1)) <= T(0.01);
 }
 
-/// Builds a map.
-/// \param count  The number of photons.
-/// \param each   each(add) must call add(photon) for each photon.
+/// Builds a map of `count` photons; each(add) must call add(photon) for each of them.
 template <std::floating_point T, typename Each>
 [[nodiscard]] PhotonMapT<T> map_of(std::size_t count, const Each& each, int threads) {
     require_point_count(count);
@@ -60,7 +57,7 @@ template <std::floating_point T, typename Each>
     return map;
 }
 
-/// Builds a map, and frees the lists of photons during the construction.
+/// Builds a map, and frees the given lists during the construction.
 /// \cost At most 60 bytes per photon in float at any time, including the given photons,
 ///       on systems where std::realloc() moves pages without copying.
 template <std::floating_point T>
@@ -98,8 +95,8 @@ template <std::floating_point T>
     return detail::map_of<T>(photons.size(), each, threads);
 }
 
-/// The typical radius of a disc that contains a given number of photons: the geometric
-/// mean of the radii of such discs around photons of a map.
+/// The geometric mean of the radii of discs, around photons of a map, that contain a
+/// given number of photons.
 /// \param map    The photons.
 /// \param count  Number of photons in a disc, 1 to 511.
 /// \param most   The largest number of discs, above 0.

@@ -56,12 +56,11 @@ struct PhotonPassSettings {
     bool equal_lights = false;
     PhotonSampling numbers = PhotonSampling::random; ///< The random numbers.
     /// Whether objects with a nearly_specular() material count as mirrors. The light
-    /// that such an object sends to a surface with a diffuse lobe then belongs to the
-    /// caustics map. A PhotonMapper sets this member.
+    /// that they send to a surface with a diffuse lobe then belongs to the caustics
+    /// map. A PhotonMapper sets this member.
     bool gloss_as_mirrors = false;
     /// The fraction of the caustic photons for each object of specular_objects(); the
-    /// sum is 1. If empty, the fractions are those of CausticBudget::as_seen. See \ref
-    /// budget.
+    /// sum is 1. If empty, the fractions are those of CausticBudget::as_seen.
     std::vector<double> shares = {};
     /// The probability with which a photon chooses each light; the sum is 1. If empty,
     /// the probabilities are in proportion to power. See pilot_lights().
@@ -103,18 +102,15 @@ struct PhotonBlockT {
     long long unsent = 0;              ///< Number of paths that no light could emit.
 };
 
-/// Number of paths per block.
 inline constexpr long long photon_block = 512;
 
 /// The number of paths after which the memory of the whole pass is predicted.
 inline constexpr long long pilot_paths = 4 * photon_block;
 
-/// Predicts the memory of a pass and of the map made of its photons. It consists of the
-/// photons, of four numbers per photon for the tree, and of the blocks that are traced
-/// at a time.
+/// Predicts the memory of a pass and its map, in bytes: the photons, four numbers per
+/// photon for the tree, and the blocks that are traced at a time.
 /// \param photons  The number of paths.
 /// \param mean     The number of stored photons per path so far.
-/// \return In bytes.
 template <std::floating_point T>
 [[nodiscard]] double expected_bytes(long long photons, double mean) noexcept {
     const auto blocks = static_cast<double>(block_count(photons, photon_block));
@@ -144,9 +140,6 @@ template <std::floating_point T>
 }
 
 /// Explains in one sentence why a pass that has stored nothing gives up.
-/// \param paths   The number of paths.
-/// \param unsent  The number of paths that no light could emit.
-/// \param audit   What became of the emitted flux.
 [[nodiscard, gnu::cold]] inline std::string why_nothing(const PhotonPassSettings& pass,
                                                         MapType map, long long paths,
                                                         long long unsent,

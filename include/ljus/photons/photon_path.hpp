@@ -22,13 +22,12 @@ namespace ljus {
 
 namespace detail {
 
-/// The ray of a photon that leaves a light from a point of its surface.
+/// The ray of a photon that leaves a light.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const SurfacePointT<T>& point,
                             const Vec3T<T>& direction) noexcept {
     return spawn_ray(point, direction);
 }
-/// The ray of a photon that leaves a light without extent.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> leave(const Vec3T<T>& point, const Vec3T<T>& direction) noexcept {
     return {.origin = point, .direction = direction};
@@ -93,7 +92,6 @@ namespace detail {
 
 /// Emits photons by emit_photon(), for a pass that does not aim at the scene.
 struct LeaveAsEmitted {
-    /// Emits a photon of a light. The number of the light is ignored.
     template <Light L, std::floating_point T>
     [[nodiscard]] LeavingPhotonT<T>
     operator()(std::uint32_t, const L& light, const Vec2T<T>& u_point,
@@ -145,9 +143,9 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \{
 
 /// Russian roulette for a photon at a surface \cite arvo1990. The probability of
-/// survival is the flux in the brightest channel after the reflection, divided by the
-/// flux in the brightest channel before the reflection. The flux of a survivor is
-/// divided by this probability, so that the mean flux stays the same.
+/// survival is the flux in the brightest channel after the reflection, divided by that
+/// before the reflection. The flux of a survivor is divided by this probability, so
+/// that the mean flux stays the same.
 /// \param flux    Flux before the reflection, in W; not black.
 /// \param weight  BSDF times |cosine| over pdf, for the new direction.
 /// \param u       In [0, 1).
@@ -155,8 +153,7 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \return The new flux; nothing if the photon does not survive.
 /// \report{Section 3.2.2}
 /// \erratum{The report does not say that the flux of a survivor must be divided by the
-/// probability. The report's program does not divide it, and so counts the absorption
-/// twice.}
+/// probability. Its program does not divide it, and so counts the absorption twice.}
 // [roulette]
 template <std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> play_roulette(const RgbT<T>& flux,
@@ -182,9 +179,7 @@ namespace detail {
 /// each side of a surface, direct and shadow photons together represent the unoccluded
 /// light.
 /// \param photon  The photon as it leaves the light.
-/// \param first   The first hit of the photon.
 /// \param stream  A copy of the photon's stream. One number is drawn per thin surface.
-/// \param out     Receives the shadow photons.
 /// \cost One call of closest_hit() for each surface behind the first, and one more; at
 ///       most 1000.
 /// \report{Section 3.2.2.1} \cite jensen1995
@@ -212,8 +207,7 @@ void trace_shadow(const W& world, const EmittedPhotonT<T>& photon,
 }
 // [trace_shadow]
 
-/// The kind of photon that a path would store at its current vertex: direct, caustic or
-/// indirect.
+/// The kind of photon that a path would store at its current vertex.
 template <std::floating_point T>
 [[nodiscard]] PhotonKind kind_of(const PathStateT<T>& path) noexcept {
     if (path.met_diffuse) return PhotonKind::indirect;
@@ -235,10 +229,7 @@ template <std::floating_point T>
 }
 
 /// Stores a photon if the surface has a non-specular lobe and the map stores this kind
-/// of photon.
-/// \param path  The path of the photon; its throughput is the flux.
-/// \param keep  The kinds that are stored.
-/// \param out   Receives the photon.
+/// of photon. The throughput of the path is the photon's flux.
 template <AnyWorld W, std::floating_point T, Material M>
 void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& vertex,
                   const M& material, std::uint16_t light, MapType map, PhotonKinds keep,
@@ -254,12 +245,10 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
                    small_normal(vertex.point.normal)});
 }
 
-/// Scatters a photon at a vertex, and plays Russian roulette.
-/// \param path    The path; receives the new ray, flux and medium.
-/// \param map     The kind of map. For caustics only specular lobes are sampled.
+/// Scatters a photon at a vertex, and plays Russian roulette. For a caustics map only
+/// specular lobes are sampled.
+/// \param path    Receives the new ray, flux and medium.
 /// \param stream  Four numbers are drawn.
-/// \param audit   Receives the absorbed flux, and the flux lost and gained by
-///                roulette.
 /// \param gloss   Whether the glossy lobe of the surface counts as a mirror.
 /// \return Whether the path continues.
 template <std::floating_point T, Material M, StreamLike Stream>
@@ -300,10 +289,8 @@ template <std::floating_point T, Material M, StreamLike Stream>
 ///                 the photon, the new ray.
 /// \param before   The flux before next_vertex(); receives the flux at the surface.
 /// \param surface  Distance to the next surface along the path's ray.
-/// \param keep     The kinds that are stored.
 /// \param stream   One number is drawn, and one for each medium; three more if the
 ///                 photon is scattered, of which one is for roulette.
-/// \param block    Receives the stored photon, and the absorbed flux.
 // [photon in fog]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] InFog cross_fog(const W& world, MapType map, PathStateT<T>& path,
@@ -345,22 +332,18 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 template <std::floating_point T>
 struct SentPhotonT {
     EmittedPhotonT<T> photon{}; ///< The photon as it leaves its light.
-    /// The object at which the photon is aimed, if any. A photon that hits another
-    /// object first is dropped.
+    /// If set, the photon is dropped if it hits another object first.
     std::optional<ObjectId> target{};
 };
 
 /// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
-/// A photon that has met only mirrors and glass, L S+ D, is stored in the caustics map
-/// and not in the general map. If PhotonPassSettings::gloss_as_mirrors is true, a
-/// glossy surface counts as a mirror. After such a surface, the photon is stored only
-/// at surfaces with a diffuse lobe.
+/// If PhotonPassSettings::gloss_as_mirrors is true, a glossy surface counts as a
+/// mirror. After such a surface, the photon is stored only at surfaces with a diffuse
+/// lobe.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
-/// \param pass    The settings of the pass.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and
 ///                where a wavelength is chosen.
-/// \param block   Receives the photons and the audit.
 // [trace]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,

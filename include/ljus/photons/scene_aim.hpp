@@ -17,8 +17,7 @@ namespace ljus {
 
 namespace detail {
 
-/// A sphere around one or more spheres.
-/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
+/// A sphere around one or more spheres, 0.1 % larger than needed to allow for rounding.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] SphereT<T>
 sphere_around(const std::vector<SphereT<T>>& others) {
@@ -38,10 +37,8 @@ sphere_around(const std::vector<SphereT<T>>& others) {
 } // namespace detail
 
 /// The sphere to which photons are sent. It contains all objects that are not lamps,
-/// and all lamps that touch the sphere around these objects. Lamps that are farther
-/// away are left out.
-/// \return The sphere. Its radius is 0.1 % larger than needed, to allow for rounding.
-///         Nothing if all objects are lamps.
+/// and all lamps that touch the sphere around these objects.
+/// \return The sphere; nothing if all objects are lamps.
 /// \cost O(n) for n objects, and 16 bytes for each in float.
 template <AnyWorld W, std::floating_point T = typename W::Scalar>
 [[nodiscard, gnu::cold]] std::optional<SphereT<T>> lit_sphere(const W& world) {
@@ -66,13 +63,9 @@ namespace detail {
 /// cone. Their flux is at most eight times that of a photon that is not aimed.
 inline constexpr double part_in_cone = 7.0 / 8;
 
-/// Emits a photon of a near light. With the probability part_in_cone it is sent into
-/// the cone around a sphere.
-/// \param sphere   From lit_sphere().
-/// \param u_point  Point of the unit square; chooses the origin.
-/// \param u        Point of the unit square; chooses the direction.
-/// \param time     Time of the photon, in [0, 1].
-/// \return The photon. Its flux is 0 if the light does not emit in the direction.
+/// Emits a photon of a near light as emit_photon() does, but with the probability
+/// part_in_cone into the cone around a sphere. The flux is 0 if the light does not emit
+/// in the direction.
 // [emit_into]
 template <NearLight L, std::floating_point T>
 [[nodiscard]] LeavingPhotonT<T> emit_into(const L& light, const SphereT<T>& sphere,
@@ -108,8 +101,6 @@ template <NearLight L, std::floating_point T>
 /// proportion to w. It is worth \f$ E[w]^2 / E[w^2] \f$ photons of equal flux, where E
 /// is the mean. Without aiming, the fraction \f$ E[w] \f$ of the photons goes into the
 /// cone. Therefore aiming pays if \f$ E[w] > E[w^2] \f$.
-/// \param sphere  From lit_sphere().
-/// \cost 64 samples.
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard, gnu::cold]] std::optional<double>
 part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
@@ -141,7 +132,7 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 template <std::floating_point T>
 struct SceneAimT {
     LightChoice choice{}; ///< The distribution of the lights.
-    SphereT<T> sphere{};  ///< The result of lit_sphere().
+    SphereT<T> sphere{};  ///< From lit_sphere().
     /// 1 for each light that is aimed, 0 for the others; empty if no light is aimed.
     std::vector<std::uint8_t> is_aimed{};
 
@@ -174,7 +165,6 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
     const auto sphere = lit_sphere(world);
     if (!sphere) return aim;
     aim.sphere = *sphere;
-    std::vector<std::uint8_t> is_aimed;
     double before = 0, sum = 0;
     for (std::uint32_t i = 0; i < world.light_count(); ++i) {
         const auto part =
@@ -183,14 +173,13 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
                     return detail::part_of_flux_in(world, l, *sphere);
                 return std::nullopt;
             });
-        is_aimed.push_back(part ? 1 : 0);
+        aim.is_aimed.push_back(part ? 1 : 0);
         sum += (choice.cumulative[i] - before) * part.value_or(1.0);
         before = choice.cumulative[i];
         if (by_power) aim.choice.cumulative[i] = sum;
     }
-    if (std::find(is_aimed.begin(), is_aimed.end(), 1) == is_aimed.end())
+    if (std::find(aim.is_aimed.begin(), aim.is_aimed.end(), 1) == aim.is_aimed.end())
         return {.choice = choice};
-    aim.is_aimed = std::move(is_aimed);
     return aim;
 }
 

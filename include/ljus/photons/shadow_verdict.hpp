@@ -41,7 +41,7 @@ struct SkipSettings {
     float risk = 0.05f;
 };
 
-/// Checks the settings for skipping rays.
+/// Checks the settings.
 /// \throws std::invalid_argument  if a number is out of range.
 inline void check(const SkipSettings& skip) {
     require(skip.radius >= 0 && std::isfinite(skip.radius), "skip.radius",
@@ -70,18 +70,22 @@ inline void check(const SkipSettings& skip) {
 
 namespace detail {
 
+/// Whether the settings skip any rays.
+[[nodiscard]] constexpr bool skips_rays(const SkipSettings& skip) noexcept {
+    return skip.rule != SkipRule::none || skip.indirect_rays;
+}
+
 /// Numbers of a light's photons around a point.
 struct PhotonCounts {
-    std::uint32_t direct = 0; ///< Photons that arrived.
-    std::uint32_t shadow = 0; ///< Photons that were occluded.
+    std::uint32_t direct = 0;
+    std::uint32_t shadow = 0;
 };
 
-/// The rule of the report ignores the photons of one kind if photons of the other kind
-/// are more frequent by more than this factor.
+/// The rule of the report ignores the photons of one kind if there are more than this
+/// number of times as many of the other kind.
 inline constexpr std::uint64_t report_ratio = 1200;
 
-/// The verdict of the photons around a point.
-/// \param rule    The rule; not SkipRule::none.
+/// The verdict of the photons around a point, by a rule other than SkipRule::none.
 /// \param needed  The result of photons_needed().
 // [judge]
 [[nodiscard]] constexpr Verdict judge(const PhotonCounts& found, SkipRule rule,
@@ -109,17 +113,23 @@ template <typename N>
     return (n[axis] < 0) == (side < 0) ? axis : axis + 3;
 }
 
-/// The coordinate axis that is nearest to the normal of a side of a surface. The normal
-/// is given in three bytes.
+/// The facing of a side of a surface whose normal is in three bytes.
 [[nodiscard]] inline int facing(const SmallNormal& n, int side) noexcept {
     return facing(std::abs(n.x), std::abs(n.y), std::abs(n.z), n, side);
 }
-/// The coordinate axis that is nearest to the normal of a side of a surface. The normal
-/// is given as a unit vector.
+/// The facing of a side of a surface with a unit normal.
 template <std::floating_point T>
 [[nodiscard]] int facing(const Vec3T<T>& n, int side) noexcept {
     const auto size = [](T c) { return int(T(127) * std::abs(c) + T(0.5)); };
     return facing(size(n.x), size(n.y), size(n.z), n, side);
+}
+
+/// The facing of the side of the surface on which a photon arrives.
+/// \param photon  A PhotonT or a PhotonRecordT.
+template <typename P>
+[[nodiscard]] int facing(const P& photon) noexcept {
+    using Vec = decltype(photon.direction);
+    return facing(photon.normal, photon_side(photon.direction, Vec(photon.normal)));
 }
 
 } // namespace detail
@@ -142,8 +152,7 @@ verdict_at(const PhotonMapT<T>& map, const SurfacePointT<T>& point, int side,
     const auto count = [&](std::uint32_t i, double) {
         const detail::PhotonRecordT<T> photon = map.records[i];
         if (photon.light != light && skip.rule != SkipRule::report) return;
-        const int its_side = photon_side(photon.direction, Vec3T<T>(photon.normal));
-        if (detail::facing(photon.normal, its_side) != way) return;
+        if (detail::facing(photon) != way) return;
         if (photon.kind == PhotonKind::direct) ++found.direct;
         if (photon.kind == PhotonKind::shadow) ++found.shadow;
     };

@@ -63,8 +63,8 @@ struct TracedPartsT {
     TracedPhotonsT<T> pass{}; ///< The other results; its own list of photons is empty.
 };
 
-/// Adds the photons of blocks, in their order, to those of a pass. The blocks are then
-/// empty, but keep their memory for the next photons.
+/// Adds the photons of blocks, in their order, to those of a pass, and empties the
+/// blocks, which keep their memory.
 /// \return The number of paths that no light could emit.
 template <std::floating_point T>
 long long take_photons(std::span<PhotonBlockT<T>> blocks, TracedPartsT<T>& result) {
@@ -99,10 +99,8 @@ template <std::floating_point T>
     return result;
 }
 
-/// Checks the settings and the lights of a pass.
-/// \param choice  The distribution of the lights by power.
-/// \return The distribution of the lights for the pass.
-/// \throws std::invalid_argument  as trace_photons().
+/// Checks the settings and the lights of a pass. `choice` is the distribution of the
+/// lights by power; the result is that of the pass.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice
 start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
@@ -123,20 +121,18 @@ start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
     return choice;
 }
 
-/// How the photons of a pass leave their lights. For the general map this is the result
-/// of aim_at_scene(). For the caustics map only `choice` is set, because its photons
-/// are aimed at single objects.
-template <AnyWorld W>
-[[nodiscard]] SceneAimT<typename W::Scalar> scene_aim_of(const W& world, MapType map,
-                                                         const PhotonPassSettings& pass,
-                                                         LightChoice choice) {
+/// Checks a pass, and determines how its photons leave their lights. For the caustics
+/// map only `choice` is set, because its photons are aimed at single objects.
+template <AnyWorld W, std::floating_point T = typename W::Scalar>
+[[nodiscard]] SceneAimT<T> scene_aim_of(const W& world, MapType map,
+                                        const PhotonPassSettings& pass) {
+    LightChoice choice = start_pass<T>(map, pass, world.light_choice());
     require_no_film_in_fog(world);
     if (map == MapType::caustics) return {.choice = std::move(choice)};
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
 
-/// The objects at which the photons of a caustics map are aimed. Empty for a general
-/// map.
+/// The objects at which the photons of a caustics map are sent; none for a general map.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
                                                const PhotonPassSettings& pass) {
@@ -149,7 +145,6 @@ template <AnyWorld W>
 /// Traces the blocks of a pass by several threads. This function is compiled once for
 /// all types of scenes.
 /// \param trace  Traces one block of paths, by trace_block().
-/// \return The photons in the order of emission.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] TracedPartsT<T>
 run_pass(MapType map, const PhotonPassSettings& pass,
@@ -200,8 +195,7 @@ template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPartsT<typename W::Scalar>
 trace_parts(const W& world, MapType map, const PhotonPassSettings& pass) {
     using T = typename W::Scalar;
-    const auto aim =
-        scene_aim_of(world, map, pass, start_pass<T>(map, pass, world.light_choice()));
+    const auto aim = scene_aim_of(world, map, pass);
     const auto targets = targets_of(world, map, pass);
     if (map == MapType::caustics && targets.empty())
         return {.pass = {.emitted = pass.photons}};
@@ -251,8 +245,7 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,
     require_at_least("the first path", first, 0);
     require_at_least("the last path", last, first);
     require_at_least("the number of photons", pass.photons, last);
-    const auto aim = detail::scene_aim_of(
-        world, map, pass, detail::start_pass<T>(map, pass, world.light_choice()));
+    const auto aim = detail::scene_aim_of(world, map, pass);
     const auto targets = detail::targets_of(world, map, pass);
     detail::PhotonBlockT<T> block;
     if (map == MapType::general || !targets.empty())

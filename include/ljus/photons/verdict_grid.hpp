@@ -24,7 +24,7 @@ struct VerdictGridT {
 
     /// A cell of the grid, for one facing of a surface.
     struct Cell {
-        /// The bits of the cell's brick; null if there is no brick.
+        /// The bits of the cell's brick; null if no brick contains the cell.
         const std::uint64_t* bits = nullptr;
         std::uint32_t cell = 0; ///< Index in the brick, 0 to 63.
     };
@@ -73,17 +73,6 @@ using VerdictGrid = VerdictGridT<float>; ///< VerdictGridT in float.
 
 namespace detail {
 
-/// The verdicts of a grid at a vertex, in the form that sample_all_lights() expects.
-template <std::floating_point T>
-struct VerdictsAtT {
-    const VerdictGridT<T>& grid;       ///< The grid.
-    typename VerdictGridT<T>::Cell at; ///< The vertex's cell.
-
-    [[nodiscard]] Verdict operator()(std::size_t light) const noexcept {
-        return grid.verdict(at, light);
-    }
-};
-
 /// The cell of a vertex, on the side of `wo`.
 template <std::floating_point T>
 [[nodiscard]] auto cell_of(const VerdictGridT<T>& grid,
@@ -91,27 +80,17 @@ template <std::floating_point T>
     return grid.cell_of(vertex.point, vertex.wo.z < T(0) ? -1 : 1);
 }
 
-/// The verdicts of a grid at a vertex, on the side of `wo`. The grid may be empty, and
-/// must outlive the result.
+/// The verdicts of a grid at a vertex, on the side of `wo`, for sample_all_lights().
+/// The grid may be empty, and must outlive the result.
 template <std::floating_point T>
-[[nodiscard]] VerdictsAtT<T> verdicts_at(const VerdictGridT<T>& grid,
-                                         const VertexT<T>& vertex) noexcept {
-    return {grid, cell_of(grid, vertex)};
+[[nodiscard]] auto verdicts_at(const VerdictGridT<T>& grid,
+                               const VertexT<T>& vertex) noexcept {
+    return [&grid, at = cell_of(grid, vertex)](std::size_t light) noexcept {
+        return grid.verdict(at, light);
+    };
 }
 
-/// Whether an indirect ray from a vertex can be skipped, because no indirect photon is
-/// near. If so, the skipped ray is counted.
-template <std::floating_point T>
-[[nodiscard]] bool skips_bounce(const VerdictGridT<T>& grid, const VertexT<T>& vertex,
-                                Counts& counts) noexcept {
-    if (!grid.dark_known || grid.indirect_near(cell_of(grid, vertex))) return false;
-    ++counts.skipped_bounces;
-    return true;
-}
-
-/// Replaces unknown verdicts by those of a coarser grid.
-/// \param coarse  A grid whose cells are longer by the factor `times`.
-/// \param times   2 or 4.
+/// Replaces unknown verdicts by those of a grid whose cells are `times` as long.
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
     for (std::size_t b = 0; b < fine.table.size(); ++b) {
@@ -160,8 +139,7 @@ make_verdict_grid(const std::vector<PhotonT<T>>& photons, std::size_t lights,
                   const SkipSettings& skip, int threads = 0) {
     check(skip);
     VerdictGridT<T> grid{.dark_known = skip.indirect_rays};
-    if (photons.empty() || (skip.rule == SkipRule::none && !skip.indirect_rays))
-        return grid;
+    if (photons.empty() || !detail::skips_rays(skip)) return grid;
     BoxT<T> box;
     for (const PhotonT<T>& photon : photons) box = box_union(box, photon.position);
     const T length = detail::cell_length(photons, box, lights, skip);

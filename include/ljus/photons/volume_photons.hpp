@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/volume_photons.hpp
-/// \brief Photons at the points where fog scatters them, and the radiance of a ray from
-/// such photons.
+/// \brief Photons where fog scatters them, and the radiance of a ray from such photons.
 
 #include <array>
 #include <cmath>
@@ -56,14 +55,14 @@ using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes
 /// How the flux of photons in fog is spread.
 struct BeamEstimateSettings {
     /// Radius of the ball over which the flux of a photon is spread, in scene units. If
-    /// this setting is 0, the radius for each photon is the distance to its n-th
-    /// nearest neighbour, where n is `nearest`.
+    /// 0, each photon's radius is the distance to its n-th nearest neighbour, where n
+    /// is `nearest`.
     float radius = 0;
     std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
     Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.
 };
 
-/// Checks the settings of an estimate in fog.
+/// Checks the settings.
 /// \throws std::invalid_argument  if a number is out of range.
 inline void check(const BeamEstimateSettings& settings) {
     require(settings.radius >= 0 && std::isfinite(settings.radius),
@@ -88,9 +87,8 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 
 namespace detail {
 
-/// Sets the radius of each photon to the distance to its n-th nearest neighbour, where
-/// n is `nearest`. If this distance is 0, the radius is a thousandth of the longest
-/// side of the photons' bounding box.
+/// Sets the radii as BeamEstimateSettings describes. If the distance to the neighbour
+/// is 0, the radius is a thousandth of the longest side of the bounding box.
 // [radii]
 template <std::floating_point T>
 [[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,

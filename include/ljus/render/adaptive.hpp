@@ -60,8 +60,7 @@ struct AdaptiveSettings {
 /// Checks the settings of adaptive sampling.
 /// \param rule     The settings.
 /// \param samples  Largest mean number of rays per pixel.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 inline void check(const AdaptiveSettings& rule, int samples) {
     const bool by_others = rule.disagreement > 0 && rule.target == 0;
     require_at_least("first", rule.first, by_others ? 1 : 2);
@@ -110,8 +109,8 @@ struct AdaptiveBlock {
     }
 };
 
-/// The blocks of a picture that lie in the rows of blocks `first` to `last` - 1, row by
-/// row. A block is `size` pixels wide and high.
+/// The blocks of a picture in the rows of blocks `first` to `last` - 1, row by row. A
+/// block is `size` pixels wide and high.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
@@ -137,8 +136,7 @@ struct RowSums {
     [[nodiscard]] std::size_t index(int x, int y) const noexcept {
         return pixel_index(width, x, y - top);
     }
-    /// Removes the first `count` blocks, which fill whole rows, and the sums of their
-    /// pixels.
+    /// Removes the first `count` blocks, which fill whole rows, and their sums.
     void drop(std::vector<AdaptiveBlock>& blocks, std::size_t count) {
         if (count == 0) return;
         const int rows = blocks[count - 1].bottom - top;
@@ -148,26 +146,22 @@ struct RowSums {
     }
 };
 
-/// The number of rays per pixel in the next batch of a block.
 [[nodiscard]] constexpr int rays_in_batch(const AdaptiveSettings& rule,
                                           const AdaptiveBlock& block) noexcept {
     return block.batches == 0 ? rule.first : block.more;
 }
 
-/// The number of rays of a block in this round.
 [[nodiscard]] constexpr double rays_wanted(const AdaptiveBlock& block,
                                            const AdaptiveSettings& rule) noexcept {
     return block.pixels() * block.wanted * rays_in_batch(rule, block);
 }
 
-/// The relative variance of the rays of a block.
+/// The variance of a ray divided by mean^2 + epsilon, averaged over the channels and
+/// pixels of a block with at least 2 rays per pixel.
 ///
-/// The variance is divided by the squared mean of the block, which is less noisy than
-/// that of a pixel. The rays of a pixel are assumed to be independent; because they are
-/// stratified, the true variance of their mean is slightly smaller.
-/// \param block    A block with at least 2 rays per pixel.
-/// \return The variance of a ray divided by mean^2 + epsilon, averaged over channels
-///         and pixels.
+/// The mean is that of the block, which is less noisy than that of a pixel. The rays of
+/// a pixel are assumed to be independent; because they are stratified, the true
+/// variance of their mean is slightly smaller.
 [[nodiscard]] inline double relative_variance(const AdaptiveBlock& block,
                                               const RowSums& sums, double epsilon) {
     const double n = block.rays, count = block.pixels();
@@ -257,9 +251,7 @@ struct RayShare {
 ///
 /// This variance includes the differences between pixels. An edge or the border of a
 /// shadow is therefore noticed even with one ray per pixel.
-/// \param parts   The statistics of the blocks; receives the variances.
 /// \param blocks  All blocks of a picture, row by row.
-/// \param rule    Its `first` and `epsilon` are used.
 inline void set_variances_around(std::vector<RayShare>& parts,
                                  const std::vector<AdaptiveBlock>& blocks,
                                  const AdaptiveSettings& rule) {
@@ -348,10 +340,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 }
 
 /// Traces the batches of a block in this round.
-/// \param samples   Receives the samples of these pixels.
-/// \param sums      The sums to which `samples` adds them.
-/// \param block     The block; its batches and rays are counted.
-/// \param cost      Counts the rays.
+/// \param sums  The sums to which `samples` adds the samples.
 template <typename R, CameraLike C, std::floating_point T>
 void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& renderer,
                  const C& camera, const RenderSettings& picture,
@@ -376,7 +365,6 @@ void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& render
 
 /// Traces the batches of some blocks. The delayed queries of their samples are answered
 /// together.
-/// \param blocks    The blocks; their batches and rays are counted.
 template <typename R, CameraLike C>
 [[nodiscard]] Counts
 trace_blocks(const R& renderer, const C& camera, const RenderSettings& picture,
@@ -404,7 +392,6 @@ inline void add_errors(double& error, std::span<const AdaptiveBlock> blocks,
 }
 
 /// Sets the pixels of an adaptive picture to the means of their rays.
-/// \param result     Receives the means and the numbers of rays.
 /// \param forgotten  Discarded rays per pixel, which the sums do not contain.
 template <std::floating_point T>
 void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,

@@ -11,8 +11,7 @@ namespace ljus {
 /// \addtogroup budget
 /// \{
 
-/// The ability that PhotonMappingSettings::caustic_budget needs. Pass
-/// `abilities<Budgeting>` to the renderer.
+/// The ability that PhotonMappingSettings::caustic_budget needs.
 struct Budgeting {
     /// Budgeting has no state. The mapper keeps the shares in
     /// PhotonMapper::settings().caustics, as `shares` and `light_shares`.
@@ -23,9 +22,8 @@ struct Budgeting {
 /// The share of each light in the caustic photons, measured by pilot_lights().
 /// \param world     The closed scene.
 /// \param settings  The budget and the photons.
-/// \return Shares as in PhotonPassSettings::light_shares. If the settings contain
-///         shares, or ask for no measurement, their `light_shares` are returned
-///         unchanged.
+/// \return PhotonPassSettings::light_shares; unchanged if the settings contain shares
+///         or ask for no measurement.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
@@ -46,8 +44,7 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
 /// \param world     The closed scene.
 /// \param settings  The budget, photons, radii. For CausticBudget::brightness, 20 000
 ///                  photons of a general pass estimate the other light in the scene.
-/// \return Shares as in PhotonPassSettings::shares. Shares that the settings contain
-///         are returned unchanged.
+/// \return PhotonPassSettings::shares; unchanged if the settings contain them.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_shares(const W& world, const PhotonMappingSettings& settings) {

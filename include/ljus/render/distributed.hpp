@@ -61,10 +61,8 @@ namespace detail {
 /// Direct light at a surface, by one shadow ray to a random point of each light. A
 /// glossy surface sends no shadow ray to a lamp, because the reflected ray finds the
 /// lamp.
-/// \param context   The random stream, from which two numbers are drawn for each light
-///                  with a size; counts the rays.
+/// \param context  Two numbers are drawn for each light with a size.
 /// \return Radiance towards wo.
-/// \report{Section 2.1}
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> soft_light(const W& world, const VertexT<T>& vertex,
                                  const M& material, Context& context) {

@@ -23,23 +23,13 @@ namespace ljus {
 
 namespace detail {
 
-/// The shading normal of a surface, flipped to the side of `wo`.
-/// \return Unit vector.
-template <std::floating_point T>
-[[nodiscard]] Vec3T<T> seen_normal(const VertexT<T>& vertex) noexcept {
-    return std::copysign(T(1), vertex.wo.z) * vertex.frame.normal;
-}
-
 /// The radiance that some lobes of a material reflect or transmit along `wo` if the
 /// incident radiance on each side of the surface is the same in all directions. This
 /// radiance is the albedo times E / pi, where E is the irradiance. For a Lambertian
 /// surface the result is exact; the albedo of any other surface is estimated by one
 /// sample.
-/// \param material    The material of the surface.
-/// \param wo          Unit vector in the surface's frame, to the viewer.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
 ///                    which the direction points, in W/m^2.
-/// \param which       The lobes.
 /// \param stream      Three numbers are drawn, for a Lambertian surface none.
 /// \return W/(m^2 sr).
 // [reflected]
@@ -100,7 +90,6 @@ namespace detail {
 /// The irradiance on the side of a surface into which a direction points. If no
 /// irradiance point is near, the irradiance is estimated from the maps, by the same
 /// method as at the points; without a general map, the result is 0.
-/// \param lookup   The points and the maps.
 /// \param resting  The surface, as detail::at_rest() returns it.
 /// \param wi       The direction, in the frame of the surface.
 /// \param context  A random stream, used if there is no point; counts shadow rays.
@@ -120,8 +109,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
                                lookup.irradiance, lookup.points->disc, context);
 }
 
-/// The radiance that a glossy surface reflects to the viewer if only two kinds of light
-/// are counted: light straight from lamps, and the light of the caustics map.
+/// The radiance that a glossy surface reflects to the viewer, of two kinds of light
+/// only: straight from lamps, and from the caustics map.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> light_on_gloss(const W& world, const GatherLookupT<T>& lookup,
                                      const VertexT<T>& vertex, const M& material,

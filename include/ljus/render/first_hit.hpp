@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/render/first_hit.hpp
-/// \brief Pictures of the normals, albedos or distances of the surfaces that primary
-/// rays hit.
+/// \brief Pictures of the normals, albedos or distances that primary rays meet.
 
 #include "ljus/path/continue_path.hpp"
 
@@ -22,8 +21,7 @@ enum class FirstHit {
     depth   ///< The distance along the ray, in scene units; 0 for a ray without a hit.
 };
 
-/// A renderer that shows the first hit of each primary ray. Whether a ray passes a
-/// thin surface is random, as in every renderer.
+/// A renderer that shows the first hit of each primary ray.
 template <typename W>
 class FirstHitRenderer {
 public:

@@ -11,8 +11,7 @@ namespace ljus {
 /// \addtogroup final_gathering
 /// \{
 
-/// The ability that IndirectLight::gather and IndirectLight::cache need. Pass
-/// `abilities<Gathering>` to the renderer.
+/// The ability that IndirectLight::gather and IndirectLight::cache need.
 struct Gathering {
     /// The data that a mapper keeps for gathering.
     template <std::floating_point T>
@@ -42,9 +41,8 @@ gather_lookup(const Mapper& mapper) noexcept {
 }
 
 /// The fraction of the disc of a caustics estimate that lies on the surface, if the
-/// caustics map holds the light of glossy surfaces. That light covers whole walls. An
-/// estimate that is not divided by this fraction would be too dark along each edge of a
-/// wall.
+/// caustics map holds the light of glossy surfaces. That light covers whole walls;
+/// undivided estimates would be too dark along each edge of a wall.
 /// \param mapper  With Gathering.
 /// \param vertex  The centre of the disc, as detail::at_rest() returns it.
 /// \return In (0, 1]; 1 if the map holds no such light, or for an estimate with the k
@@ -57,9 +55,8 @@ template <typename Mapper, std::floating_point T>
                            T(how.radius));
 }
 
-/// The radiance that a surface reflects to the viewer, computed from the irradiance of
-/// the nearest irradiance point on each side. The function is called where an
-/// indirect ray ends.
+/// The radiance that a surface reflects to the viewer where an indirect ray ends,
+/// computed from the irradiance of the nearest irradiance point on each side.
 /// \param mapper    With Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.

@@ -34,8 +34,7 @@ using IrradianceCache = IrradianceCacheT<float>; ///< IrradianceCacheT in float.
 
 namespace detail {
 
-/// Whether two normals differ by less than 18 degrees: only then is the irradiance at
-/// one point used at the other.
+/// Whether two normals differ by less than 18 degrees.
 template <std::floating_point T>
 [[nodiscard]] bool like_normals(const Vec3T<T>& a, const Vec3T<T>& b) noexcept {
     return glm::dot(a, b) > T(0.95);
@@ -110,15 +109,13 @@ namespace detail {
 /// The irradiance gathered for one row of tiles.
 template <std::floating_point T>
 struct GatheredRowT {
-    std::vector<Vec3T<T>> positions;   ///< The points, in world space.
-    std::vector<GatheredT<T>> records; ///< The light gathered at the points, in this
-                                       ///< order.
-    Counts counts{};                   ///< Cost of the gathering.
+    std::vector<Vec3T<T>> positions;
+    std::vector<GatheredT<T>> records; ///< In the order of the positions.
+    Counts counts{};
 };
 
-/// Gathers irradiance at the point where a camera ray meets its first diffuse surface:
-/// a point of an irradiance cache \cite ward1988 . The ray follows mirrors and
-/// is split at glass, so that one ray may give several points.
+/// Gathers irradiance where a camera ray meets its first diffuse surface. The ray
+/// follows mirrors and is split at glass, so that one ray may give several points.
 template <AnyWorld W, std::floating_point T>
 void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
                   const RayT<T>& ray, const GatherSettings& settings,
@@ -153,9 +150,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
     }
 }
 
-/// Sets the `spacing` of each point of a cache: the distance to its k-th nearest point
-/// with a similar normal.
-/// \param settings  The number k is its member `nearest`.
+/// Sets the `spacing` of each point of a cache, where k is settings.nearest.
 template <std::floating_point T>
 void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
                      int threads) {

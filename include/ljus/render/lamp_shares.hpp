@@ -18,9 +18,8 @@ namespace ljus {
 /// \{
 
 /// The points at which a picture queries the photon maps: those on the first and the
-/// second non-specular surface that each camera path meets. The points are stored as
-/// photons. The flux of such a photon is the throughput of the path at the point, which
-/// is called the *importance* of the point.
+/// second non-specular surface that each camera path meets. Each is stored as a photon,
+/// whose flux is the throughput of the path: the *importance* of the point.
 /// \cost 1024 paths.
 template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 [[nodiscard]] PhotonMapT<T> seen_places(const W& world, const C& camera, int width,
@@ -61,18 +60,17 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 }
 
 /// Changes the settings so that a lamp whose light contributes more to the picture
-/// sends more photons. A pilot pass measures the contribution, see pilot_lights(). Each
-/// pilot photon is weighted with the importance of the seen_places() around it. A
-/// lamp whose light the picture does not show, such as one in a closed cupboard, sends
-/// a tenth of the photons that it would send if the shares were proportional to power.
+/// sends more photons. pilot_lights() measures the contribution; each pilot photon is
+/// weighted with the importance of the seen_places() around it. A lamp whose light the
+/// picture does not show sends a tenth of the photons that it would send in proportion
+/// to its power.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  The settings to change; shares that they contain are kept.
 /// \param width     Width of the picture, in pixels.
 /// \param height    Height of the picture, in pixels.
-/// \return The settings with `light_shares` for both passes. With fewer than
-///         two lamps, nothing is changed. The settings of a pass with fewer than 800
-///         photons per lamp are not changed.
+/// \return The settings with `light_shares` for each pass with at least 800 photons
+///         per lamp; unchanged with fewer than two lamps.
 /// \cost A twentieth of the photons, and 1024 camera paths.
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings

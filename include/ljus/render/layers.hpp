@@ -113,9 +113,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
                               return has(lobes(material), Lobes::non_specular);
                           });
         if (ends)
-            return {std::copysign(T(1), vertex->wo.z) * vertex->frame.normal,
-                    path.throughput / vertex->stop_probability *
-                        sample_albedo(world, *vertex, stream)};
+            return {seen_normal(*vertex), path.throughput / vertex->stop_probability *
+                                              sample_albedo(world, *vertex, stream)};
         const auto follow = [&](const auto& material) {
             return continue_path(path, *vertex, material, Transport::flux,
                                  Lobes::specular, stream);
@@ -128,22 +127,18 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 /// A stream whose numbers are all 1/2. A camera ray with this stream passes the middle
 /// of the lens at the middle of the exposure.
 struct MiddleStream {};
-/// The middle of [0, 1).
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(MiddleStream&) noexcept {
     return T(0.5);
 }
-/// The middle of the unit square.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec2T<T> next_2d(MiddleStream&) noexcept {
     return Vec2T<T>{T(0.5)};
 }
-/// The middle of the unit cube.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr Vec3T<T> next_3d(MiddleStream&) noexcept {
     return Vec3T<T>{T(0.5)};
 }
-/// Does nothing: the numbers of all bounces are the same.
 constexpr void start_bounce(MiddleStream&, std::uint64_t) noexcept {}
 
 /// The sums over the rays of one pixel.
@@ -151,9 +146,8 @@ struct LayeredPixel {
     RgbT<double> picture{0};
     Vec3T<double> normal{0};
     RgbT<double> albedo{0};
-    std::vector<RgbT<double>> light{}; ///< Sums of light, one per class of paths.
+    std::vector<RgbT<double>> light{}; ///< One per class of paths.
 
-    /// Divides each sum by the number of rays, which gives the means.
     void divide(double rays) {
         picture /= rays;
         normal /= rays;
@@ -166,7 +160,7 @@ struct LayeredPixel {
 template <typename R, typename C>
 class LayeredTracer {
 public:
-    using T = typename C::Scalar; ///< Precision of the camera.
+    using T = typename C::Scalar;
 
     LayeredTracer(const R& renderer, const C& camera, const PictureRays& rays,
                   const LayerSettings& which,
@@ -174,10 +168,7 @@ public:
         : renderer_(renderer), camera_(camera), rays_(rays), which_(which),
           log_(classes) {}
 
-    /// Traces one ray.
-    /// \param at     Which ray.
-    /// \param sums   The sums of the pixel, to which the ray's radiance and other data
-    ///               are added.
+    /// Traces one ray, and adds its radiance and other data to the sums of the pixel.
     /// \param count  Counts rays, and samples that are not finite.
     void trace(const PixelRay& at, LayeredPixel& sums, Counts& count) {
         typename R::Stream stream;
@@ -234,7 +225,6 @@ private:
 };
 
 /// Calls `add` with the value of one pixel in each layer, in the order of the layers.
-/// \param means   The sums over the rays of the pixel, divided by their number.
 /// \param middle  The ray through the middle of the pixel.
 template <AnyWorld W, std::floating_point T, typename Add>
 void layer_values(const LayerSettings& which, const LayeredPixel& means, const W& world,

@@ -17,12 +17,12 @@ namespace ljus {
 
 /// Numbers that a survey counts in a scene.
 struct SceneNeeds {
-    std::size_t objects = 0;  ///< Number of objects.
-    std::size_t diffuse = 0;  ///< Number of objects with a non-specular lobe.
-    std::size_t specular = 0; ///< Number of objects with a specular lobe.
-    std::size_t narrow = 0;   ///< Number of objects that are nearly_specular().
-    std::size_t lights = 0;   ///< Number of lights, including emissive objects.
-    std::size_t fog = 0;      ///< Number of media that scatter light.
+    std::size_t objects = 0;  ///< All objects.
+    std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.
+    std::size_t specular = 0; ///< Objects with a specular lobe.
+    std::size_t narrow = 0;   ///< Objects that are nearly_specular().
+    std::size_t lights = 0;   ///< Lights, including emissive objects.
+    std::size_t fog = 0;      ///< Media that scatter light.
     bool films = false;       ///< Whether a material is a thin surface.
 };
 
@@ -48,8 +48,7 @@ template <AnyWorld W>
     return found;
 }
 
-/// Which passes run: the decisions of a Plan, without their reasons. The members have
-/// the same names as those of Plan.
+/// Which passes run: the decisions of a Plan, without their reasons.
 struct Passes {
     bool shadow_rays = false;      ///< As Plan::shadow_rays.
     bool indirect_rays = false;    ///< As Plan::indirect_rays.
@@ -68,8 +67,7 @@ struct Passes {
 
 namespace detail {
 
-/// Whether the general pass stores photons in fog. It does if indirect light is asked
-/// for.
+/// Whether the general pass stores photons in fog, for indirect light.
 [[nodiscard]] inline bool
 scatters_in_fog(const PhotonMappingSettings& settings) noexcept {
     return settings.indirect != IndirectLight::none && settings.general.photons > 0;
@@ -92,7 +90,7 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
         settings.indirect == IndirectLight::cache || settings.keep_general_map;
     const bool general = lit && map_asked && settings.general.photons > 0;
     const bool cache = settings.indirect == IndirectLight::cache;
-    const bool looked_up = cache || settings.indirect == IndirectLight::gather;
+    const bool looked_up = detail::uses_points(settings.indirect);
     const bool caustic = lit && settings.caustics.photons > 0;
     const bool gloss = caustic && general && looked_up && found.narrow > 0;
     const bool caustics = gloss || (caustic && found.specular > 0);
@@ -118,8 +116,7 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The settings for skipping shadow rays and indirect rays. A rule that needs photons
-/// of a pass that does not run is turned off.
+/// The settings for skipping rays, without what needs a pass that does not run.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;
@@ -128,19 +125,17 @@ namespace detail {
     return skip;
 }
 
-/// The reason why a PhotonMapper with these settings cannot render a scene with fog.
-/// \return A sentence without a full stop; empty if there is no fog, or if the mapper
-///         can render the scene.
+/// The reason why a PhotonMapper with these settings cannot render a scene with fog: a
+/// sentence without a full stop, or nothing.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] std::string
 refused_in_fog(const W& world, const PhotonMappingSettings& settings) {
     if (!world.has_fog()) return {};
-    if (settings.indirect == IndirectLight::gather ||
-        settings.indirect == IndirectLight::cache)
+    if (uses_points(settings.indirect))
         return "the scene has fog, and irradiance that is gathered or cached leaves "
                "its light out; let indirect light come by rays, map or photons, or "
                "remove the fog";
-    if (settings.skip.rule != SkipRule::none || settings.skip.indirect_rays)
+    if (skips_rays(settings.skip))
         return "the scene has fog, and photons that say which rays to skip do not know "
                "how much it dims; skip no rays, or remove the fog";
     return {};

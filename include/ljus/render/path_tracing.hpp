@@ -32,8 +32,7 @@ struct PathTracingSettings {
 };
 
 /// Checks the settings.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 inline void check(const PathTracingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require(settings.roulette_threshold >= 0, "roulette_threshold",
@@ -79,11 +78,8 @@ namespace detail {
 
 /// The MIS weight of light that a path finds. The weight is 1 if no shadow ray from the
 /// previous vertex could have found the light.
-/// \param tracer  The tracer.
-/// \param light   The number of the light.
-/// \param pdf     Returns the density of a shadow ray to that light, per steradian;
-///                called only if it is needed.
-/// \return In [0, 1].
+/// \param pdf  Returns the density of a shadow ray to that light, per steradian; called
+///             only if it is needed.
 template <AnyWorld W, std::floating_point T, typename Pdf>
 [[nodiscard]] T share_of_path(const PathTracer<W>& tracer, const PathStateT<T>& path,
                               std::uint32_t light, const Pdf& pdf) {
@@ -94,10 +90,8 @@ template <AnyWorld W, std::floating_point T, typename Pdf>
                       pdf() * probability_of<T>(tracer.world().light_choice(), light));
 }
 
-/// The emission of a lamp that a path has met, times the MIS weight of the path.
-/// \param vertex  The point of the lamp that the path hit.
-/// \return Throughput times radiance times the weight.
-/// \report{Eq. (1)}
+/// The throughput of a path times the radiance of a lamp that it has met, times the MIS
+/// weight of the path.
 // [emitted]
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> emitted(const PathTracer<W>& tracer, const PathStateT<T>& path,
@@ -111,9 +105,8 @@ template <AnyWorld W, std::floating_point T>
 }
 // [emitted]
 
-/// The radiance of the sky for a path that leaves the scene, times the MIS weights of
-/// the path.
-/// \return Throughput times radiance times the weight.
+/// The throughput of a path that leaves the scene times the radiance of the sky, times
+/// the MIS weights of the path.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> escaped(const PathTracer<W>& tracer, const PathStateT<T>& path) {
     RgbT<T> sum{T(0)};
@@ -129,8 +122,6 @@ template <AnyWorld W, std::floating_point T>
 
 /// Decides whether a path continues, by max_depth and roulette, and counts its next
 /// ray.
-/// \param path  The path after its scattering.
-/// \return Whether the path continues.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] bool goes_on(const PathTracer<W>& tracer, PathStateT<T>& path,
                            Context& context) {
@@ -156,7 +147,6 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// \param path     The path after next_vertex(); receives its new ray.
 /// \param before   The throughput of the path before next_vertex().
 /// \param surface  Distance of the next surface.
-/// \param terms    Receives the light.
 // [cross fog]
 template <AnyWorld W, std::floating_point T, typename Terms, typename Context>
 [[nodiscard]] InFog cross_fog(const PathTracer<W>& tracer, PathStateT<T>& path,

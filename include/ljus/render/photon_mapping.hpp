@@ -4,7 +4,6 @@
 /// \brief The report's renderer: two photon maps, and rays from the camera.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -31,7 +30,7 @@ namespace ljus {
 /// | E S* L          | emission, while no diffuse surface has been met             |
 /// | E ... D L       | shadow rays, or the verdict of shadow photons               |
 /// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
-/// | E ... D ... D.. | indirect rays, or the general map where the first ray ends  |
+/// | E ... D ... D.. | indirect rays, or a lookup as IndirectLight describes       |
 ///
 /// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
 /// scatters light towards the eye along each ray of a camera path. Of this light,
@@ -77,8 +76,8 @@ struct PhotonMapsT {
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
     VolumeMapT<T> fog; ///< Photons in fog whose paths have an earlier D; empty without
                        ///< fog.
-    FluxAudit caustics_audit{}; ///< Where the flux of the caustics pass went.
-    FluxAudit general_audit{};  ///< Where the flux of the general pass went.
+    FluxAudit caustics_audit{}; ///< The flux of the caustics pass.
+    FluxAudit general_audit{};  ///< The flux of the general pass.
     bool starved = false;       ///< Whether the general map has fewer indirect photons
                                 ///< than IrradiancePointSettings::least.
     bool complete = true;       ///< False if the progress callback stopped a pass.
@@ -95,44 +94,37 @@ concept Included = requires {
 };
 
 /// The state of an optional ability of a photon mapper, such as Gathering, in precision
-/// T.
+/// T. A stream has no state, and neither has an ability whose header is not included.
 template <typename X, std::floating_point T>
 struct StateOf {
-    using Type = typename X::template State<T>; ///< The state.
+    using Type = typename X::template State<T>;
 };
-/// A stream has no state, and neither has an ability whose header is not included.
 template <typename X, std::floating_point T>
 requires(!Included<X> || StreamLike<X>) struct StateOf<X, T> {
-    using Type = Abilities<X>; ///< No state.
+    using Type = Abilities<X>;
 };
 
 /// Finds the stream in a list of abilities; a RandomStream if the list has none.
 template <typename... X>
 struct StreamAmong {
-    using Type = RandomStream; ///< The default.
+    using Type = RandomStream;
 };
-/// If the first argument is an ability, the stream is among the others.
 template <typename First, typename... X>
 struct StreamAmong<First, X...> : StreamAmong<X...> {};
-/// The first argument is a stream.
 template <typename First, typename... X>
 requires(Included<First>&& StreamLike<First>) struct StreamAmong<First, X...> {
-    using Type = First; ///< The stream that is listed.
+    using Type = First;
 };
 
 /// The kinds of photons that the general map keeps.
-/// \param settings  The user's settings.
 [[nodiscard]] inline PhotonKinds kept_kinds(const PhotonMappingSettings& settings) {
-    const bool only_indirect = settings.indirect == IndirectLight::photons ||
-                               settings.indirect == IndirectLight::gather ||
-                               settings.indirect == IndirectLight::cache;
+    const bool only_indirect =
+        settings.indirect == IndirectLight::photons || uses_points(settings.indirect);
     if (only_indirect && !settings.keep_general_map)
         return one_kind(PhotonKind::indirect);
     return settings.general.shadow_photons ? all_kinds : light_kinds;
 }
 
-/// The number of photons of a kind.
-/// \param photons  The photons of the general pass.
 template <std::floating_point T>
 [[nodiscard]] long long count_of(const PhotonPartsT<T>& photons, PhotonKind kind) {
     long long count = 0;
@@ -143,7 +135,6 @@ template <std::floating_point T>
     return count;
 }
 
-/// Removes the photons of all kinds that are not in `kinds`.
 template <std::floating_point T>
 void keep_kinds(PhotonPartsT<T>& photons, PhotonKinds kinds) {
     for (auto& part : photons)
@@ -151,7 +142,6 @@ void keep_kinds(PhotonPartsT<T>& photons, PhotonKinds kinds) {
                       [&](const auto& photon) { return !kinds.has(photon.kind); });
 }
 
-/// All photons in one list.
 template <std::floating_point T>
 [[nodiscard]] std::vector<PhotonT<T>> joined(const PhotonPartsT<T>& photons) {
     std::vector<PhotonT<T>> all;
@@ -159,17 +149,7 @@ template <std::floating_point T>
     return all;
 }
 
-/// Whether direct photons outnumber indirect ones two to one, as they do in the open.
-/// Irradiance points at indirect photons alone would then be too few.
-/// \param photons  The photons of the general pass.
-template <std::floating_point T>
-[[nodiscard]] bool lands_once(const PhotonPartsT<T>& photons) {
-    return count_of(photons, PhotonKind::direct) >
-           2 * count_of(photons, PhotonKind::indirect);
-}
-
 /// A remark about a general map with so few indirect photons that paths replace it.
-/// \param indirect  The number of its indirect photons.
 [[nodiscard, gnu::cold]] inline std::string
 starved_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons ",
@@ -179,7 +159,6 @@ starved_remark(long long indirect, const PhotonMappingSettings& settings) {
 }
 
 /// A remark about a general map whose indirect photons are few but are used.
-/// \param indirect  The number of its indirect photons.
 [[nodiscard, gnu::cold]] inline std::string
 blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
     return join({"of ", to_text(settings.general.photons), " general photons only ",
@@ -188,13 +167,9 @@ blurred_remark(long long indirect, const PhotonMappingSettings& settings) {
                  "large radius; trace more, or let rays carry it"});
 }
 
-/// Runs the photon passes for the maps that the plan asks for, and for no others.
-/// \param world     The closed scene.
-/// \param settings  Photons, seed, threads.
-/// \param run       Which passes run.
-/// \param judge     Called with all photons of the general pass, before the kinds that
-///                  the map does not keep are removed.
-/// \return The maps, the same for any number of threads.
+/// Runs the photon passes.
+/// \param judge  Called with all photons of the general pass, before the kinds that the
+///               map does not keep are removed.
 template <AnyWorld W, typename Judge>
 [[nodiscard, gnu::cold]] PhotonMapsT<typename W::Scalar>
 trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& run,
@@ -254,15 +229,16 @@ trace_maps(const W& world, const PhotonMappingSettings& settings, const Passes& 
     if (blurred && !maps.starved)
         maps.remarks.append(blurred_remark(indirect, settings) + "\n");
     if (maps.starved && !settings.keep_general_map) return maps;
-    if (choose && lands_once(photons)) kept = light_kinds;
+    // In the open most photons land once: points at indirect photons would be too few.
+    if (choose && count_of(photons, PhotonKind::direct) > 2 * indirect)
+        kept = light_kinds;
     if (verdicts || choose) keep_kinds(photons, kept);
     if (run.general_map) maps.general = map_of_parts(std::move(photons));
     return maps;
 }
 
 /// A remark about a caustics map of fewer than 256 photons, if the mapper has chosen
-/// the radius of its estimates.
-/// \return A line with a line feed; empty if there is no remark.
+/// the radius: a line with a line feed, or nothing.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string few_caustics_remark(const PhotonMapT<T>& map,
                                                          float radius) {
@@ -274,9 +250,9 @@ template <std::floating_point T>
                  to_text(radius), "; trace more, or choose a caustic budget\n"});
 }
 
-/// A remark about estimates whose radius seems to be in a wrong unit: hardly any
-/// estimate finds a photon, or every estimate finds all photons.
-/// \return A line with a line feed; empty if there is no remark.
+/// A remark about estimates whose radius seems to be in a wrong unit, so that hardly
+/// any estimate finds a photon, or every estimate finds all: a line with a line feed,
+/// or nothing.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] std::string
 radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
@@ -298,8 +274,8 @@ radius_remark(std::string_view name, const DensityEstimateSettings& estimate,
 
 } // namespace detail
 
-/// The report's renderer: photon maps of a world, and the settings that they were made
-/// with. The constructor traces the photons. The world must outlive the mapper.
+/// The report's renderer. The constructor traces the photons. The world must outlive
+/// the mapper.
 ///
 ///     const PhotonMapper mapper(world, {.indirect = IndirectLight::map});
 ///     const PhotonMapper fast(world, preset_settings(Preset::fast, 400, 400),
@@ -361,8 +337,7 @@ public:
     }
 
     /// Fills the irradiance cache for the pictures of one camera, if the settings ask
-    /// for one. With an empty cache the renderer gathers at every vertex: the result is
-    /// right, but slow.
+    /// for one. With an empty cache the mapper gathers at every vertex, which is slow.
     /// \param camera   Any camera.
     /// \param picture  Size, seed, threads, progress.
     template <CameraLike C>
@@ -469,14 +444,12 @@ private:
                     {what, " needs an ability that is not listed: abilities<",
                      ability}));
         };
-        const bool gathers = settings.indirect == IndirectLight::gather ||
-                             settings.indirect == IndirectLight::cache;
-        require_ability(has<Gathering>, gathers, "indirect light by gathering",
+        require_ability(has<Gathering>, detail::uses_points(settings.indirect),
+                        "indirect light by gathering",
                         "Gathering> of ljus/render/gathering.hpp.");
-        require_ability(
-            has<Skipping>,
-            settings.skip.rule != SkipRule::none || settings.skip.indirect_rays,
-            "leaving out needless rays", "Skipping> of ljus/render/skipping.hpp.");
+        require_ability(has<Skipping>, detail::skips_rays(settings.skip),
+                        "leaving out needless rays",
+                        "Skipping> of ljus/render/skipping.hpp.");
         require_ability(has<Budgeting>,
                         settings.caustic_budget != CausticBudget::as_seen &&
                             settings.caustics.shares.empty(),
@@ -523,7 +496,6 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 /// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
 /// surfaces after the first diffuse surface, a single shadow ray to each light is
 /// enough, unless nearly specular surfaces count as mirrors.
-/// \param path  The path at the surface.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] DirectLightSettings direct_light_at(const Mapper& mapper,
@@ -618,17 +590,11 @@ void light_at(const PhotonMapper<W, X...>& mapper, const VertexT<T>& vertex,
 namespace detail {
 
 /// Adds the light that fog scatters towards the eye along a ray of a camera path, and
-/// dims the path.
-///
-/// The path itself is not scattered. Shadow rays start at two random points of its ray.
-/// One point is chosen by equi-angular sampling, the other by a free flight that may
-/// end in the fog.
-/// \param mapper   The world and the maps.
+/// dims the path, which is not scattered. Shadow rays start at two random points of the
+/// ray. One point is chosen by equi-angular sampling, the other by a free flight.
 /// \param path     The path after next_vertex().
 /// \param before   Its throughput before next_vertex().
 /// \param surface  Distance of the next surface.
-/// \param context  The random stream of the path; counts rays and photons.
-/// \param add      The sum of the path.
 // [light in fog]
 template <AnyWorld W, typename... X, std::floating_point T, typename Context,
           typename Sum>

@@ -31,12 +31,15 @@ enum class IndirectLight : std::uint8_t {
 
 namespace detail {
 
+/// Whether irradiance points are looked up where indirect rays end.
+[[nodiscard]] constexpr bool uses_points(IndirectLight indirect) noexcept {
+    return indirect == IndirectLight::gather || indirect == IndirectLight::cache;
+}
+
 /// Whether paths end at the second diffuse surface: a lookup there replaces all further
 /// bounces.
-/// \param indirect  The source of indirect light.
 [[nodiscard]] constexpr bool gathers(IndirectLight indirect) noexcept {
-    return indirect == IndirectLight::map || indirect == IndirectLight::gather ||
-           indirect == IndirectLight::cache;
+    return indirect == IndirectLight::map || uses_points(indirect);
 }
 
 } // namespace detail
@@ -70,17 +73,16 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether the lights share caustics.photons in proportion to the flux that each of
-    /// them contributes to the caustics map. A pilot pass of at most a quarter of the
-    /// photons measures this flux. Every CausticBudget but as_seen and equal does this
-    /// in any case. The setting is ignored without the ability Budgeting.
+    /// Whether pilot_lights() measures how the lights share caustics.photons, with at
+    /// most a quarter as many photons. Every CausticBudget but as_seen and equal does
+    /// this in any case. The setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
     DensityEstimateSettings caustics_estimate{};
-    /// A lone caustic photon (see lone_photons()) has a disc whose radius is this
-    /// number times the radius of other discs, 1 to 1000. Estimates with the k nearest
-    /// photons ignore it.
+    /// Radius of the disc of a lone caustic photon, as a multiple of the radius of
+    /// other discs, 1 to 1000; see lone_photons(). Estimates with the k nearest photons
+    /// ignore it.
     float lone_radius = 1;
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
@@ -97,8 +99,7 @@ struct PhotonMappingSettings {
 };
 
 /// Checks the settings.
-/// \throws std::invalid_argument  if a setting is out of range, with its name and
-///         value.
+/// \throws std::invalid_argument  if a setting is out of range.
 [[gnu::cold]] inline void check(const PhotonMappingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);
@@ -136,7 +137,7 @@ struct PhotonMappingSettings {
 
 namespace detail {
 
-/// The settings of the estimate with lone photons, which has a larger radius.
+/// The settings of the estimate with lone photons.
 [[nodiscard]] inline DensityEstimateSettings
 lone_estimate(const PhotonMappingSettings& settings) noexcept {
     DensityEstimateSettings wide = settings.caustics_estimate;

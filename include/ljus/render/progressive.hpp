@@ -56,8 +56,8 @@ namespace detail {
 /// The means of blocks of pixels; blocks at the right and bottom edge may be smaller.
 template <std::floating_point T>
 [[nodiscard]] ImageT<double> means_of_blocks(const ImageT<T>& image, int side) {
-    const auto blocks = [side](int pixels) { return (pixels - 1) / side + 1; };
-    auto means = make_image<double>(blocks(image.width), blocks(image.height));
+    auto means = make_image<double>(int(block_count(image.width, side)),
+                                    int(block_count(image.height, side)));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const int columns = std::min(side, image.width - x / side * side);
@@ -98,9 +98,8 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The state of progressive rendering; its size does not depend on the number of
-/// passes. It is plain data; alpha and the side of blocks may be set before the first
-/// pass.
+/// The state of progressive rendering. Its size does not depend on the number of
+/// passes. Alpha and the side of blocks may be set before the first pass.
 struct ProgressiveState {
     /// Determines how fast the radius shrinks, in (0, 1]; see progressive_mean().
     double alpha = 2.0 / 3;
@@ -114,8 +113,8 @@ struct ProgressiveState {
     ImageT<double> squares{};       ///< Sum of the squared deviations of the
                                     ///< passes from their mean.
     ImageT<double> block_squares{}; ///< The same as `squares`, for block means.
-    /// A description of the picture in the program's own words. A checkpoint keeps the
-    /// description, and a program that resumes compares it with its own.
+    /// The program's description of the picture, kept in a checkpoint. A program that
+    /// resumes compares it with its own.
     std::string picture{};
 };
 
@@ -123,11 +122,10 @@ struct ProgressiveState {
 ///
 /// The passes are independent: each has its own random streams, and the radii are fixed
 /// in advance. The sum of the squared deviations of n independent values from their
-/// mean, divided by n(n - 1), estimates the variance of the mean, even if later values
-/// have a larger variance, as they have here. The expected values of the passes change
-/// with the radius. This makes the estimate too large, by 1/(3n) of the squared bias
-/// for alpha = 2/3. The estimate **does not contain the bias itself**, because all
-/// passes are blurred alike.
+/// mean, divided by n(n - 1), therefore estimates the variance of the mean. The
+/// expected values of the passes change with the radius, which makes the estimate too
+/// large, by 1/(3n) of the squared bias for alpha = 2/3. The estimate **does not
+/// contain the bias itself**, because all passes are blurred alike.
 struct ProgressiveError {
     double pixels = 0; ///< Standard error of a pixel: root mean square over all pixels.
     double blocks = 0; ///< Standard error of a block's mean, which includes the
@@ -209,9 +207,9 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 }
 // [run]
 
-/// Checks that the passes so far belong to the picture that is to be continued. The
-/// first pass is rendered again, and all bits are compared. The bits depend on the
-/// world, camera, settings, seed, program and machine.
+/// Checks that the passes so far belong to the picture that is to be continued: the
+/// first pass is rendered again, and all bits are compared. They depend on the world,
+/// camera, settings, seed, program and machine.
 /// \param state  The state of a checkpoint.
 /// \param pass   The function that will render further passes; see \ref progressive.
 /// \throws std::invalid_argument  if the first pass differs.
@@ -226,8 +224,7 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "camera, settings, seed and program.");
 }
 
-/// The settings of a mapper with all automatic choices made, for further passes: radii
-/// of 0 are replaced, and a pilot pass has set the shares of a budget.
+/// The settings for further passes, with the radii and shares that a mapper has chosen.
 /// \param first  The mapper of the first pass.
 /// \return The settings, the same in every run of the program.
 template <AnyWorld W, typename... X>
@@ -242,8 +239,7 @@ settings_for_passes(const PhotonMapper<W, X...>& first) {
     return chosen;
 }
 
-/// The settings for further passes, from the settings of the first pass. Photons are
-/// traced once to make the automatic choices.
+/// The settings for further passes, from a mapper that is made for this purpose.
 /// \param world, settings, listed  As for a PhotonMapper.
 /// \throws std::invalid_argument  if a setting is out of range.
 /// \cost The photon maps of one pass.
@@ -268,8 +264,7 @@ settings_for_passes(const W& world, const PhotonMappingSettings& settings,
 /// \param picture   Size; rays per pixel in one pass.
 /// \param pass      The number of the pass, from 1.
 /// \param scale     Factor of the radii, in (0, 1].
-/// \param listed     As for a PhotonMapper; StratifiedStream for several rays per
-///                   pixel.
+/// \param listed    As for a PhotonMapper; StratifiedStream for several rays per pixel.
 /// \return The picture; not complete if a progress callback stopped it.
 /// \throws std::invalid_argument  if a radius is 0: each pass would choose its own
 ///         radius, and none would shrink.

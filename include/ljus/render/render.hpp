@@ -4,7 +4,6 @@
 /// \brief Renders pictures: the loop over pixels.
 
 #include <algorithm>
-#include <optional>
 
 #include "ljus/image/filter.hpp"
 #include "ljus/image/image.hpp"
@@ -59,7 +58,7 @@ struct RenderedT {
 };
 
 /// Sets a stream to its first number for one ray.
-/// \param stream   The stream. Every type of stream has an overload of this function.
+/// \param stream   The stream; every type of stream has an overload.
 /// \param seed     The user's seed.
 /// \param pixel    The pixel's number within the picture.
 /// \param ray      The ray's number within the pixel.
@@ -73,7 +72,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// The number of adjacent pixels of a row that are rendered together.
+/// Pixels of a row that are rendered together.
 inline constexpr int strip_width = 16;
 
 } // namespace detail
@@ -101,8 +100,7 @@ struct PixelRay {
 /// \param at      Which ray.
 /// \param stream  Set to the random numbers of that ray, of which the position takes
 ///                the first.
-/// \return The position in pixels, from the upper left corner of the picture, and its
-///         weight.
+/// \return The position in pixels from the upper left corner, and its weight.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] FilterSampleT<T> sample_pixel(const PictureRays& rays, const PixelRay& at,
                                             Stream& stream) {
@@ -160,20 +158,17 @@ struct PixelRegion {
     int height = 1; ///< Height in pixels, at least 1.
 };
 
-/// Renders a part of a picture by several threads, for example one caustic of a large
-/// picture.
-///
-/// The random numbers of a ray depend on its pixel's position in the whole picture, not
-/// in the part. The part is therefore the same as in the picture of render(), byte for
-/// byte.
+/// Renders a part of a picture by several threads: the same as in the picture of
+/// render(), byte for byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
 /// \param region    A rectangle within the picture.
 /// \return A picture of the region alone. A sample that is not finite is left out and
 ///         counted.
-/// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
-///         region reaches out of the picture.
+/// \throws std::invalid_argument  if the size or the number of rays is below 1, the
+///         region reaches out of the picture, or the scene has fog that the renderer
+///         does not carry.
 /// \cost The cost of all strips of 16 pixels that the region touches.
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
@@ -237,18 +232,14 @@ struct RowRange {
     int last = 0;  ///< One past the last row.
 };
 
-/// Renders some rows of a picture by several threads, for example on one of several
-/// machines: rows that are rendered separately and joined are the picture of render(),
-/// byte for byte.
+/// Renders some rows of a picture as render_region() does, for example on one of
+/// several machines.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
 /// \param rows      At least one row.
-/// \return A picture of those rows alone. A sample that is not finite is left out and
-///         counted.
-/// \throws std::invalid_argument  if the size or the number of rays is below 1, or the
-///         rows are outside the picture, or the scene has fog that the renderer does
-///         not carry.
+/// \return A picture of those rows alone.
+/// \throws std::invalid_argument  as render_region().
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>
 [[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
@@ -269,7 +260,7 @@ render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
 /// \param picture   Size, rays, seed, threads.
 /// \return The picture, the same for any number of threads. A sample that is not finite
 ///         is left out and counted.
-/// \throws std::invalid_argument  if the size or the number of rays is below 1.
+/// \throws std::invalid_argument  as render_region().
 template <typename R, typename C>
 [[nodiscard]] auto render(const R& renderer, const C& camera,
                           const RenderSettings& picture) {

@@ -11,8 +11,7 @@ namespace ljus {
 /// \addtogroup shadow_photons
 /// \{
 
-/// The ability that PhotonMappingSettings::skip needs. Pass
-/// `abilities<Skipping>` to the renderer.
+/// The ability that PhotonMappingSettings::skip needs.
 struct Skipping {
     /// The data that a mapper keeps for skipping.
     template <std::floating_point T>
@@ -37,8 +36,11 @@ template <typename Mapper, std::floating_point T>
 template <typename Mapper, std::floating_point T>
 [[nodiscard]] bool needs_no_bounce(const Mapper& mapper, const VertexT<T>& vertex,
                                    Counts& counts) noexcept {
-    return detail::skips_bounce(mapper.template state<Skipping>().verdicts, vertex,
-                                counts);
+    const VerdictGridT<T>& grid = mapper.template state<Skipping>().verdicts;
+    if (!grid.dark_known || grid.indirect_near(detail::cell_of(grid, vertex)))
+        return false;
+    ++counts.skipped_bounces;
+    return true;
 }
 
 /// \}

@@ -32,10 +32,10 @@ namespace ljus {
 ///
 ///     const VertexMerger merger(world, {.paths = 100000, .radius = 0.02f});
 ///
-/// Suns, skies and moving shapes are refused. The renderer leaves out two effects. If a
-/// body of rough glass lies inside a second body, a ray that leaves the glass to join
-/// two paths is not absorbed by the second body. At grazing angles, meshes with
-/// interpolated normals absorb some photons, whose light is missing.
+/// The renderer leaves out two effects. If a body of rough glass lies inside a second
+/// body, a ray that leaves the glass to join two paths is not absorbed by the second
+/// body. At grazing angles, meshes with interpolated normals absorb some photons, whose
+/// light is missing.
 template <typename W>
 class VertexMerger {
 public:
@@ -72,8 +72,8 @@ namespace detail {
 /// A vertex of a camera path, its material, and the weights of the subpath.
 template <std::floating_point T, Material M>
 struct CameraVertex {
-    const VertexT<T>& at;          ///< The vertex.
-    const M& material;             ///< The material of the vertex.
+    const VertexT<T>& at;
+    const M& material;
     const SubpathWeights& weights; ///< MIS weights at the vertex.
     int depth;                     ///< Number of surfaces from the eye to the vertex.
 };

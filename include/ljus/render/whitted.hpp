@@ -60,9 +60,7 @@ namespace detail {
 
 /// Adds the light that a diffuse surface reflects: that of each light, by one shadow
 /// ray, and the ambient light, without a shadow ray.
-/// \param counts    Counts the shadow rays.
-/// \param add       Called as add(owner, letters, radiance).
-/// \report{Section 2.1}
+/// \param add  Called as add(owner, letters, radiance).
 // [local light]
 template <AnyWorld W, std::floating_point T, Material M, typename Add>
 void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
@@ -90,9 +88,6 @@ void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,
 // [local light]
 
 /// Traces one branch of the tree, and all branches that split off from it.
-/// \param context  The random stream; counts rays, logs terms.
-/// \param sum      The sum to which the radiance is added.
-/// \report{Section 2.1}
 // [trace_branch]
 template <AnyWorld W, std::floating_point T, typename Context>
 void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& context,
@@ -141,7 +136,7 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
 /// \param ray      A primary ray.
 /// \param context  The random stream; counts rays, logs terms.
 /// \return Radiance, in W/(m^2 sr).
-/// \cost Up to 2^max_depth rays, if every ray meets glass.
+/// \cost Up to 2^(max_depth + 1) - 1 rays, if every ray meets glass.
 /// \report{Section 2.1}
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> radiance(const WhittedTracer<W>& tracer, const RayT<T>& ray,

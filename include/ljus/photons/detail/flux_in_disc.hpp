@@ -3,12 +3,9 @@
 /// \file ljus/photons/detail/flux_in_disc.hpp
 /// \brief The flux in a disc around a point, summed eight photons at a time.
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "ljus/accel/kd_tree8.hpp"
@@ -121,7 +118,6 @@ public:
         }
         if (++parts_ == 16) add_part();
     }
-    /// The sum of weight times flux, in W.
     RgbT<double> sum() noexcept {
         if (parts_ > 0) add_part();
         return sum_;
@@ -199,12 +195,9 @@ private:
     int parts_ = 0;
 };
 
-/// Sums the weighted flux of the photons that arrive on one side of a disc.
-/// \param tree      The positions of the photons.
-/// \param records   The other data of the photons.
+/// Sums the weighted flux of the photons that arrive on one side of a disc, in W.
 /// \param gathered  A counter. The number of photons in the disc, on both sides, is
 ///                  added to it.
-/// \return The sum of weight times flux, in W.
 template <std::floating_point T, typename K>
 [[nodiscard]] LJUS_CORE_CLONES RgbT<double>
 flux_in_disc(const KdTree8T<T>& tree, const PhotonRecordsT<T>& records,

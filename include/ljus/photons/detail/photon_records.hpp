@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/photon_records.hpp
-/// \brief The data of the photons of a map, except for their positions, in blocks of
-/// eight photons.
+/// \brief The data of a map's photons, except for their positions, in blocks of eight.
 
 #include <algorithm>
 #include <bit>
@@ -66,23 +65,18 @@ struct RecordCode {
     }
 };
 
-/// Records in the tree's order, in blocks of eight. To a reader they are a list of
-/// PhotonRecordT.
+/// A list of PhotonRecordT in the tree's order, stored in blocks of eight.
 template <std::floating_point T>
 class PhotonRecordsT {
 public:
     PhotonRecordsT() = default;
 
-    /// Makes the list from blocks.
-    /// \param blocks  All records, in blocks of eight. The last block is padded with 0.
-    /// \param count   The number of records.
+    /// Makes a list of `count` records. The last block is padded with 0.
     PhotonRecordsT(StoredArray<RecordBlockT<T>> blocks, std::size_t count) noexcept
         : blocks_(std::move(blocks)), size_(count) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-    /// One record.
-    /// \param index  In the tree's order, below size().
     [[nodiscard]] PhotonRecordT<T> operator[](std::size_t index) const noexcept {
         const RecordBlockT<T>& block = blocks_[index / 8];
         const std::size_t i = index % 8;
@@ -92,11 +86,10 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept {
         return blocks_.span().size_bytes();
     }
-    /// All records in blocks of eight; the last block is padded with 0.
     [[nodiscard]] std::span<const RecordBlockT<T>> blocks() const noexcept {
         return blocks_.span();
     }
-    /// The blocks and the memory in which they are stored.
+    /// The blocks with their memory.
     [[nodiscard]] const StoredArray<RecordBlockT<T>>& stored() const noexcept {
         return blocks_;
     }
@@ -116,8 +109,7 @@ public:
             {photon.direction, photon.flux, photon.light, photon.kind, photon.normal});
     }
 
-    /// Sorts the records in place, makes blocks of them and returns these. The sorter
-    /// is then empty.
+    /// Sorts the records in place, and moves them into the result.
     /// \param order  order[i] is the index of the record that becomes record i.
     /// \cost O(n), and 4 bytes per record.
     [[nodiscard]] PhotonRecordsT<T> sorted(std::span<const std::uint32_t> order,
@@ -134,7 +126,7 @@ public:
         // Records are first moved into groups that fit into a cache, and then sorted
         // within each group. This causes fewer cache misses.
         constexpr std::size_t group = 4096;
-        GrowingArray<std::size_t> next; // the first unsettled place of each group
+        GrowingArray<std::size_t> next; // the first unsettled index of each group
         for (std::size_t i = 0; i < size_; i += group) next.push_back(i);
         for (std::size_t g = 0; g < next.size(); ++g)
             for (const std::size_t end = std::min((g + 1) * group, size_);

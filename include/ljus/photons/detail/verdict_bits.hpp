@@ -16,12 +16,10 @@
 
 namespace ljus::detail {
 
-/// A cell of the grid, for one facing of a surface; see facing().
+/// A cell of the grid, for one facing of a surface.
 struct VerdictCell {
-    std::int32_t x = 0;   ///< Number of the cell along the x axis; at least 0.
-    std::int32_t y = 0;   ///< Number of the cell along the y axis; at least 0.
-    std::int32_t z = 0;   ///< Number of the cell along the z axis; at least 0.
-    std::int32_t way = 0; ///< Facing of the surface, 0 to 5; see facing().
+    std::int32_t x = 0, y = 0, z = 0; ///< Numbers along the axes, at least 0.
+    std::int32_t way = 0;             ///< Facing of the surface; see facing().
 
     /// The index of the cell in its brick, 0 to 63.
     [[nodiscard]] constexpr std::uint32_t in_brick() const noexcept {
@@ -52,7 +50,6 @@ struct CellsT {
     T length = T(0);       ///< Length of a cell, in scene units.
 
     /// The cell that contains a point; nothing outside the grid.
-    /// \param way  Facing of the surface.
     [[nodiscard]] std::optional<VerdictCell> cell_of(const Vec3T<T>& point,
                                                      int way) const noexcept {
         const Vec3T<T> c = (point - corner) * (T(1) / length);
@@ -147,13 +144,6 @@ struct VerdictBitsT {
     }
 };
 
-/// The facing of the side of the surface on which a photon arrives.
-template <std::floating_point T>
-[[nodiscard]] int facing(const PhotonT<T>& photon) noexcept {
-    return facing(photon.normal,
-                  photon_side(photon.direction, Vec3T<T>(photon.normal)));
-}
-
 /// Whether a photon counts for the grid. Its surface and its light must be known, and
 /// the settings must use its kind.
 template <std::floating_point T>
@@ -195,8 +185,7 @@ template <std::floating_point T>
 
 /// A counted photon.
 struct Witness {
-    /// The photon's cell: 64 times the index of the brick plus the index within the
-    /// brick.
+    /// The photon's cell: 64 times the index of the brick plus the index within it.
     std::uint32_t where = 0;
     bool shadow = false; ///< True for a shadow photon, false for a direct one.
 };
@@ -244,7 +233,6 @@ using PackedCounts = std::uint64_t;
 /// index grows first along x.
 using CountsAround = std::array<PackedCounts, 216>;
 
-/// Collects the counts of the cells of a brick and of the cells around it.
 /// \param counts  The counts of all cells, 64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
@@ -281,9 +269,7 @@ constexpr void add_neighbors(CountsAround& sums) noexcept {
             sums[i] += sums[i + step] + sums[i + 2 * step];
 }
 
-/// Converts the sums of a brick into bits.
-/// \param sums    The result of add_neighbors().
-/// \param needed  The result of photons_needed().
+/// Converts the sums of add_neighbors() into bits.
 /// \return Two elements: a bit for each lit cell, and a bit for each cell in shadow.
 [[nodiscard]] inline std::array<std::uint64_t, 2>
 judge_brick(const CountsAround& sums, SkipRule rule, std::uint32_t needed) noexcept {

@@ -18,9 +18,8 @@ struct CausticsBatch {
     BallBlocks found{};                       ///< Storage for the search.
 
     /// Computes the queued estimates.
-    /// \param counts   Counts queries and photons.
-    /// \param give     Called as give(item, light), with the index of a sample and the
-    ///                 radiance that is to be added to it.
+    /// \param give  Called as give(item, light), with the index of a sample and the
+    ///              radiance that is to be added to it.
     template <typename Mapper, typename Give>
     void finish(const Mapper& mapper, Counts& counts, const Give& give) {
         if (places.empty()) return;
@@ -45,7 +44,6 @@ struct CausticsBatch {
 };
 
 /// Queues the caustics estimate of a vertex, if it can be batched.
-/// \param batch       The batch of the context; a NoBatch delays nothing.
 /// \return Whether the estimate was queued.
 template <typename Batch, std::floating_point T, typename M, typename K>
 [[nodiscard]] bool put_off(Batch& batch, const VertexT<T>& vertex, const M& material,

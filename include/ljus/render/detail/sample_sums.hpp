@@ -28,14 +28,14 @@ concept Batches = requires(typename R::Batch& batch) {
 /// The batch of a renderer that delays nothing.
 template <typename R>
 struct BatchOf {
-    using Type = NoBatch;              ///< A batch that stays empty.
+    using Type = NoBatch;
     static constexpr int together = 1; ///< How many samples are finished at a time.
 };
 /// The batch of a renderer that delays queries.
 template <Batches R>
 struct BatchOf<R> {
-    using Type = typename R::Batch;     ///< The renderer's own batch.
-    static constexpr int together = 64; ///< How many samples are finished at a time.
+    using Type = typename R::Batch;
+    static constexpr int together = 64;
 };
 
 /// The sums over the samples of a pixel. They are in double, because a sum of 100 000
