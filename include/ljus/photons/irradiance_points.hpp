@@ -204,11 +204,13 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// \param seed      Seed of the random streams.
 /// \param threads   As in ParallelSettings.
 /// \return The points, the same for any number of threads.
+/// \throws std::invalid_argument  if a setting is out of range.
 /// \cost About 10 microseconds per point.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] IrradiancePointsT<T> make_irradiance_points(
     const W& world, const PhotonMapT<T>& general, const PhotonMapT<T>& caustics,
     const IrradiancePointSettings& settings, std::uint64_t seed, int threads = 0) {
+    check(settings);
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < general.records.size(); ++i)
         if (detail::is_point(general, i, settings.every)) chosen.push_back(i);

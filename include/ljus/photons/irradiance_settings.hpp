@@ -3,9 +3,11 @@
 /// \file ljus/photons/irradiance_settings.hpp
 /// \brief Settings of irradiance points.
 
+#include <cmath>
 #include <cstddef>
 
-#include "ljus/version.hpp"
+#include "ljus/math/require.hpp"
+#include "ljus/photons/irradiance_estimate.hpp"
 
 namespace ljus {
 
@@ -28,6 +30,19 @@ struct IrradiancePointSettings {
     int least = 0;
     bool edges = true; ///< Whether an estimate is divided by part_on_surface().
 };
+
+/// Checks the settings.
+/// \throws std::invalid_argument  if a setting is out of range.
+[[gnu::cold]] inline void check(const IrradiancePointSettings& settings) {
+    require_at_least("irradiance.every", settings.every, 2);
+    require(settings.nearest >= 2 && settings.nearest <= max_nearest,
+            "irradiance.nearest", static_cast<long long>(settings.nearest),
+            "within [2, 512] (one photon sets the radius)");
+    require(settings.radius >= 0 && std::isfinite(settings.radius), "irradiance.radius",
+            double(settings.radius), "at least 0 (0: chosen from the photons)");
+    require_at_least("irradiance.shadow_rays", settings.shadow_rays, 1);
+    require_at_least("irradiance.least", settings.least, 0);
+}
 
 /// \}
 

@@ -105,17 +105,7 @@ struct PhotonMappingSettings {
     require_at_least("shadow_rays", settings.shadow_rays, 1);
     require_at_least("caustics.photons", settings.caustics.photons, 0);
     require_at_least("general.photons", settings.general.photons, 0);
-    require_at_least("irradiance.every", settings.irradiance.every, 2);
-    require(settings.irradiance.nearest >= 2 &&
-                settings.irradiance.nearest <= max_nearest,
-            "irradiance.nearest", static_cast<long long>(settings.irradiance.nearest),
-            "within [2, 512] (one photon sets the radius)");
-    require(settings.irradiance.radius >= 0 &&
-                std::isfinite(settings.irradiance.radius),
-            "irradiance.radius", double(settings.irradiance.radius),
-            "at least 0 (0: chosen from the photons)");
-    require_at_least("irradiance.shadow_rays", settings.irradiance.shadow_rays, 1);
-    require_at_least("irradiance.least", settings.irradiance.least, 0);
+    check(settings.irradiance);
     require_at_least("gather.rays", settings.gather.rays, 1);
     require_at_least("gather.tile", settings.gather.tile, 1);
     require(settings.gather.nearest >= 2 &&
