@@ -33,7 +33,7 @@ public:
                   (*static_cast<F*>(const_cast<void*>(f)))(static_cast<A&&>(a)...));
           }) {}
 
-    /// A temporary ends too early: give the callable a name.
+    /// A temporary would not live long enough: give the callable a name.
     template <typename F>
     requires(!std::same_as<std::remove_cvref_t<F>, FunctionRef>) FunctionRef(const F&&)
     = delete;

@@ -18,7 +18,7 @@ namespace ljus {
 /// Settings of a tree's construction.
 struct BvhSettings {
     std::uint32_t leaf_size = 4; ///< Largest number of primitives per leaf; at least 1.
-    std::uint32_t at_a_time = 1; ///< Number of primitives that one test covers.
+    std::uint32_t at_a_time = 1; ///< Number of primitives that are tested together.
     int threads = 0;             ///< Number of threads; 0 for all processors.
 };
 

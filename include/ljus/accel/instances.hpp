@@ -33,16 +33,18 @@ template <std::floating_point T>
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// A bound on the components of a vector that is transformed by the inverse map and
-/// then by the map. It adds absolute values, so that no terms cancel. The bound times
-/// the relative rounding error of the inverse map bounds the error of the result.
+/// A bound on the components of a vector of at most `size` that is transformed by the
+/// inverse map and then by the map. Absolute values are added, so that no terms cancel.
+/// The bound times the relative rounding error of the inverse map bounds the error of
+/// the result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// The sums of summed_areas(), for the areas in the scene.
+/// For each triangle, the sum of the areas in the scene up to and including that
+/// triangle.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {

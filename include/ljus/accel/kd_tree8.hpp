@@ -102,8 +102,9 @@ public:
                parts_.nodes.span().size_bytes();
     }
 
-    /// Calls `visit(found)` with a FoundBlockT for each block of eight points of which
-    /// some are within a closed ball, given as for KdTreeT::visit_within().
+    /// Calls `visit(found)`, with a FoundBlockT, for each block of eight points that
+    /// has points within a closed ball. The ball is given as for
+    /// KdTreeT::visit_within().
     template <typename Visit>
     void visit_blocks(const Vec3T<T>& center, T radius, Visit&& visit) const {
         within(center, radius, [&](std::size_t first, std::uint32_t found) {

@@ -41,8 +41,8 @@ template <std::floating_point T, typename Cross>
 } // namespace detail
 
 /// An immutable mesh. In float, a closed mesh with normals takes about 90 bytes per
-/// triangle, including the tree. If no vertex is shared, it takes about 150 bytes, and
-/// without normals 110.
+/// triangle, including the tree. If no vertex is shared, it takes about 150 bytes with
+/// normals, and 110 without.
 template <std::floating_point T>
 class MeshT {
 public:

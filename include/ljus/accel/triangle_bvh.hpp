@@ -23,8 +23,8 @@ struct alignas(64) TriangleLanes {
     Lanes size{};
 };
 
-/// The result of the conservative filter for eight triangles, in the form of
-/// yes_lanes().
+/// The result of the conservative filter for eight triangles: two sets of triangles, in
+/// the form of yes_lanes().
 struct FilteredTriangles {
     std::uint64_t possible = 0; ///< The triangles that the ray may hit.
     std::uint64_t definite = 0; ///< The triangles that the ray certainly hits.

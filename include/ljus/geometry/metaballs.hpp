@@ -82,7 +82,7 @@ template <std::floating_point T>
 ///         with f >= 0 is inside.
 /// \cost A square root and a division per blob. A ray that meets n blobs has at most
 ///       3n - 1 spans, which end where the ray enters, leaves or is nearest to a blob.
-///       A span costs n additions and usually no root or one; at worst 10 roots of 106
+///       A span costs n additions and usually no root or one; at worst 7 roots of 106
 ///       steps each.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>

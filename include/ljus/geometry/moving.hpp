@@ -49,7 +49,7 @@ template <typename S, std::floating_point T>
 }
 // [at_time]
 
-/// A shape that does not move.
+/// The shape itself, if it does not move.
 template <typename S, std::floating_point T>
 requires(!detail::is_moving<S>)
     [[nodiscard]] constexpr const S& at_time(const S& shape, T) noexcept {

@@ -102,7 +102,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires a scale that is the same along all axes, for a round shape.
+/// The scale of a round shape, which must be the same along all axes.
+/// \throws std::invalid_argument  if the scale differs; `shape` is named.
 template <std::floating_point T>
 [[nodiscard]] T one_scale(const PlacementT<T>& placement, const char* shape) {
     const Vec3T<T>& s = placement.scale;

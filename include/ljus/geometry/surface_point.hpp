@@ -135,7 +135,7 @@ template <std::floating_point T>
 ///
 /// The rounding error of a hit grows with the length of the ray. The ray ends short of
 /// `to` by this error, because a lamp could otherwise shadow itself.
-/// \return Its direction is the vector from its origin to its end, at t = 1.
+/// \return The ray. Its direction is the vector from its origin to its end, at t = 1.
 // [spawn_ray_to]
 template <std::floating_point T>
 [[nodiscard]] RayT<T> spawn_ray_to(const SurfacePointT<T>& from,

@@ -110,8 +110,8 @@ around_touch(const glm::dvec3& touch, double radius, double distance) noexcept {
     return {touch - half, touch + half};
 }
 
-/// The region that a polygon shares with a smaller one, as shared_place(); its box may
-/// be as large as `other`. `way` is the displacement of `other` relative to `one`, from
+/// The region that a polygon shares with a smaller one; see shared_place(), which trims
+/// the box of the region. `way` is the displacement of `other` relative to `one`, from
 /// time 0 to 1.
 [[nodiscard, gnu::cold]] inline std::optional<SharedPlace>
 shared_by_polygons(const SurfacePiece& one, SurfacePiece other, const glm::dvec3& way,

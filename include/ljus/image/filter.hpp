@@ -73,7 +73,7 @@ struct FilterSampleT {
 namespace detail {
 
 /// The integral of a filter's absolute weight from the centre to each of 65 equally
-/// spaced distances up to the radius, over the integral up to the radius.
+/// spaced distances up to the radius, divided by the integral up to the radius.
 using FilterTable = std::array<double, 65>;
 
 [[nodiscard]] inline FilterTable make_filter_table(Filter filter) noexcept {

@@ -82,8 +82,8 @@ inline constexpr Vec3T<double> xyz_weights[3] = {
 /// One Gaussian of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 x^2 / b),
 /// where x is the distance in degrees.
 struct EyeGaussian {
-    double a; ///< Weight.
-    double b; ///< Square of the width, in square degrees.
+    double a; ///< The weight.
+    double b; ///< The variance times 2 pi^2, in square degrees.
 };
 
 /// The filters that blur lightness, red-green and blue-yellow \cite andersson2020. Each

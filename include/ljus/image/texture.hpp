@@ -88,9 +88,9 @@ template <std::floating_point T>
            map.offset;
 }
 
-/// Converts a direction along u and v of the picture to the direction along u and v of
-/// the shape. It is rotated back, and mirrored where the scale is negative. The length
-/// stays the same.
+/// Converts a direction in the (u, v) of the picture to the (u, v) of the shape:
+/// rotates it back, and mirrors it where the scale is negative. The length stays the
+/// same.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> direction_on_shape(const UvMapT<T>& map,
                                           const Vec2T<T>& along) noexcept {
@@ -188,8 +188,8 @@ struct PictureTextureT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
     ImageT<T> image{}; ///< Linear colours in [0, 1], see load_image().
     Map map{};         ///< Maps a point to (u, v).
-    PictureWrap wrap = PictureWrap::repeat;         ///< Beyond the border.
-    PictureFilter filter = PictureFilter::bilinear; ///< Between pixel centres.
+    PictureWrap wrap = PictureWrap::repeat;         ///< Colour beyond the border.
+    PictureFilter filter = PictureFilter::bilinear; ///< Colour between pixel centres.
 };
 using PictureTexture = PictureTextureT<float>; ///< A picture on a plane, in float.
 /// A picture in the coordinates of the shape, in float.

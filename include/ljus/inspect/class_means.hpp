@@ -22,7 +22,7 @@ namespace ljus {
 /// term for many paths, such as "DS+L"; the term counts as the shortest of them.
 /// \return One mean per class, in W/(m^2 sr), the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or if
-///         the renderer does not carry the fog of its scene.
+///         the renderer does not support the fog of its scene.
 /// \cost One picture, and a few bit operations per letter of a path and class.
 /// \report{Section 2}
 template <typename R, CameraLike C>

@@ -20,11 +20,11 @@ namespace ljus {
 /// \defgroup metrics Error metrics
 /// \brief Means over pixels and channels of linear radiance, computed in double.
 ///
-/// x is the picture and r the reference. Every metric is at least 0, and 0 for equal
-/// pictures; a NaN in a picture makes the metric NaN. The reference should come from
-/// another algorithm and seed, with at most a tenth of the error to be measured. State
-/// relMSE together with the block error, which shows bias, and the trimmed error, which
-/// leaves out fireflies.
+/// x is the picture and r the reference. All metrics are 0 for equal pictures, and NaN
+/// if a picture has a NaN. Only the estimate of bias^2 can be negative. The reference
+/// should come from another algorithm and seed, with at most a tenth of the error to be
+/// measured. State relMSE together with the block error, which shows bias, and the
+/// trimmed error, which leaves out fireflies.
 /// \{
 
 /// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
@@ -84,8 +84,9 @@ template <std::floating_point T, std::floating_point U>
 /// epsilon is a squared radiance above 0; pixels darker than its root count less.
 ///
 /// *Trap*: state the epsilon. Values with different epsilons cannot be compared, nor
-/// those of tools that divide by (r + epsilon)^2.
-/// \return Dimensionless; 1 for a black picture of a scene that is bright throughout.
+/// can values from tools that divide by (r + epsilon)^2.
+/// \return Dimensionless; about 1 for a black picture of a scene that is bright
+///         throughout.
 /// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,

@@ -29,11 +29,12 @@ namespace ljus {
 
 namespace detail {
 
-/// The fraction of a photon's flux that estimates find on the surfaces along one line,
-/// which crosses the photon's disc at a right angle. On a flat surface this is about
-/// the kernel's weight.
-/// \param offset  The vector from the photon to the line, within the disc, in units of
-///                the radius.
+/// Follows a line parallel to a photon's normal, and adds up the kernel's weights where
+/// the line meets surfaces at which an estimate would use the photon. Each weight is
+/// divided by the cosine between the normals. On a flat surface the sum is the weight
+/// at `offset`.
+/// \param offset  The vector from the photon to the line, perpendicular to the normal,
+///                in units of the radius.
 template <AnyWorld W, std::floating_point T, typename K>
 [[nodiscard]] double found_along(const W& world, const SurfacePointT<T>& photon,
                                  const Vec3T<T>& offset,
@@ -208,8 +209,8 @@ template <AnyWorld W>
     return count;
 }
 
-/// Remarks about a scene in which something moves, because one photon map holds the
-/// light of all times.
+/// Remarks about a scene in which something moves: one photon map holds the light of
+/// all times.
 /// \param caustics  Whether a caustics map is looked up.
 /// \param gathered  Whether indirect rays end at a lookup of the general map.
 template <AnyWorld W>
@@ -249,8 +250,8 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
          "carry it\n"});
 }
 
-/// The number of materials with a `sigma` above 1.6 radians, which was probably meant
-/// in degrees.
+/// The number of materials with a roughness `sigma` above 1.6 radians. Such an angle
+/// was probably meant in degrees.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long steep_materials(const W& world) {
     long long steep = 0;
@@ -272,7 +273,7 @@ add_contact_remarks(const Contacts& contacts,
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
 
-/// The rule that decides a contact, as the end of a sentence.
+/// What happens where two surfaces coincide, as the end of a sentence.
 /// \return Null if no remark is needed, as for surfaces that touch only in points and
 ///         for opaque surfaces back to back.
 [[nodiscard, gnu::cold]] inline const char*

@@ -30,7 +30,7 @@ struct Plan {
     PlanItem indirect_rays;   ///< Rays between diffuse surfaces.
     PlanItem caustics_map;    ///< Photons that mirrors and glass scatter.
     PlanItem general_map;     ///< Direct, indirect and shadow photons.
-    PlanItem volume_map;      ///< Photons where fog scatters them.
+    PlanItem volume_map;      ///< Photons stored where fog scatters them.
     PlanItem shadow_photons;  ///< Shadow photons in the general map.
     PlanItem skipped_rays;    ///< Shadow rays that photons make unnecessary.
     PlanItem skipped_bounces; ///< Indirect rays that photons make unnecessary.

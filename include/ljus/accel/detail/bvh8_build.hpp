@@ -19,9 +19,10 @@ namespace ljus::detail {
 /// the sum of the surface areas of all wide nodes, because the probability that a ray
 /// visits a node is proportional to the node's area \cite ylitie2017.
 ///
-/// Let a binary node have i slots of a wide node. Either the binary node becomes a wide
-/// node of its own in one slot, or its two children share the i slots. Dynamic
-/// programming finds the cheaper choice for each i, from the leaves up.
+/// Suppose that i child slots of a wide node are available to a binary node. Either
+/// the binary node becomes a wide node of its own in one slot, or its two children
+/// share the i slots. Dynamic programming finds the cheaper choice for each i, from the
+/// leaves up.
 template <std::floating_point T>
 class BvhCollapse {
 public:
@@ -114,7 +115,7 @@ struct Bvh8Node {
 /// nodes, in units of Lanes, and a leaf as its first slot and number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    /// The lowest of the bits with the number of primitives minus 1.
+    /// The lowest of the bits that hold the number of primitives minus 1.
     static constexpr int count_shift = 27;
     /// The bits of a leaf's first slot.
     static constexpr std::uint32_t first = (1u << count_shift) - 1;

@@ -20,11 +20,13 @@ struct Bvh8Ray {
     Vec3 inverse{1};    ///< 1 over the direction, per component; always finite.
     Vec3 near_shift{0}; ///< The shift of the near planes: t = plane * inverse - shift.
     Vec3 far_shift{0};  ///< The shift of the far planes.
-    std::array<std::size_t, 3> near{}; ///< Near plane per axis, in Bvh8Node::plane.
-    std::array<std::size_t, 3> far{};  ///< Far plane per axis, in Bvh8Node::plane.
-    float length = 0;                  ///< The direction's largest absolute component.
-    float last = 0;                    ///< The largest t that is searched.
-    /// Whether products of three lengths, as in conservative_filter(), are finite.
+    /// The index of each axis's near plane in Bvh8Node::plane.
+    std::array<std::size_t, 3> near{};
+    /// The index of each axis's far plane in Bvh8Node::plane.
+    std::array<std::size_t, 3> far{};
+    float length = 0; ///< The direction's largest absolute component.
+    float last = 0;   ///< The largest t that is searched.
+    /// Whether products of three lengths are finite, as conservative_filter() requires.
     bool moderate = false;
 };
 

@@ -106,8 +106,8 @@ public:
     using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read. Other lists of the same thread use them again. If they
-    /// were freed instead, other threads might not get their memory.
+    /// Pieces that were read, for use by other lists of the same thread. An allocator
+    /// might keep the memory of freed pieces from other threads.
     using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.
@@ -116,7 +116,7 @@ public:
     [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
         return pieces_[i / piece][i % piece];
     }
-    /// Free memory for at least one item behind the last one. take() adds the items
+    /// Unused memory for at least one item behind the last one. take() adds the items
     /// that were written into this memory.
     [[nodiscard]] std::span<Item> room() {
         if (size_ == piece * pieces_.size()) {
@@ -137,7 +137,7 @@ public:
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
-    /// Sets where the list puts a piece that has been read; null if it is freed.
+    /// Sets where pieces are kept after they are read. If null, they are freed.
     void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {

@@ -17,8 +17,9 @@
 namespace ljus::detail {
 
 /// A result set for walk(). It visits all points within reach, leaf by leaf.
-/// \tparam Visit  Called as visit(first block, bits of the points). If it returns true,
-///                the search ends.
+/// \tparam Visit  Called as visit(first, found) for a leaf; `first` is the index of its
+///                first block. Bit i of `found` is set if the leaf's point i is within
+///                reach. If the function returns true, the search ends.
 template <std::floating_point T, typename Visit>
 struct WithinT {
     static constexpr bool nearest_first = false;

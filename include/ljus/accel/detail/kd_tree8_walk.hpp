@@ -33,7 +33,8 @@ template <std::floating_point T>
 /// for nearly all points.
 ///
 /// A squared distance computed in T has at most five rounding errors, and each bound
-/// differs from the limit by 16. Between the bounds, distance2() decides in double.
+/// differs from the limit by 16 such errors. Between the bounds, distance2() decides in
+/// double.
 template <std::floating_point T>
 struct ReachT {
     double limit2 = -1; ///< The squared limit; if negative, nothing is within reach.
@@ -240,9 +241,8 @@ struct BallBlocks {
 };
 
 /// Finds the blocks of KdTree8T::visit_blocks() for many balls of one radius, in the
-/// same order. All balls visit one level of the tree before the next level. The search
-/// for a single ball waits for memory at each step. For many balls the processor can
-/// read memory at once.
+/// same order. All balls visit one level of the tree before the next level. A search
+/// for a single ball waits for memory at each step; the waits of many balls overlap.
 /// \param tree    The tree.
 /// \param balls   The number of balls.
 /// \param center  Called as center(ball); returns the centre of a ball.

@@ -13,9 +13,9 @@
 
 namespace ljus::detail {
 
-/// The number halfway between two others in the ordered list of all values of T. An
-/// interval that is repeatedly halved at this number is used up after at most as many
-/// steps as T has bits.
+/// The number halfway between two others in the ordered list of all values of T. If an
+/// interval is repeatedly halved at this number, its ends are neighbours in the list
+/// after at most as many steps as T has bits.
 template <std::floating_point T>
 [[nodiscard]] constexpr T middle_in_bits(T low, T high) noexcept {
     using Bits = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
@@ -94,8 +94,8 @@ smallest_and_largest(const T* values, std::size_t count, T above, T up_to) noexc
 /// \param k       The rank, in [1, count].
 /// \param spare   By how much the rank of the result may exceed k. A larger number
 ///                saves passes.
-/// \return The smallest number that at least k values do not exceed. If `spare` is
-///         above 0, any number that k to k + spare values do not exceed.
+/// \return The k-th smallest value. If `spare` is above 0, possibly a larger number, up
+///         to which there are at most k + spare values.
 /// \cost About five passes, and at most a hundred in float or two hundred in double. A
 ///       pass has a comparison and an addition per eight values.
 // [select]

@@ -26,11 +26,11 @@ struct FlatShapesT {
     std::vector<TriangleT<T>> triangles;
 };
 
-/// Joins two triangles if they share an edge, face the same side and form a
+/// Joins two triangles if they share an edge, face the same way and form a
 /// parallelogram. Files often split a wall or a lamp into two triangles. One quad costs
-/// half as much, and the lamp becomes a single light. The fourth vertex may be off the
-/// parallelogram by a few units in the last place of a double, because the decimals of
-/// a file are rounded.
+/// half as much as two triangles, and the lamp becomes a single light. The fourth
+/// vertex may be off the parallelogram by a few units in the last place of a double,
+/// because the decimals of a file are rounded.
 /// \return Every triangle, unchanged or as half of a quad with the same normal.
 /// \cost O(n log n) for n triangles.
 template <std::floating_point T>
