@@ -82,8 +82,8 @@ template <std::floating_point T>
 /// Here \f$\varrho\f$ is the albedo, L_e the radiance of the lamp, F the form factor,
 /// f_i the unoccluded light of the i-th shadow ray, and V_i its visibility. Where the
 /// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
-/// of two random sums has a bias; it is of the order of the variance of f_i over the
-/// number of rays.
+/// of two random sums has a bias; it is of the order of the variance of f_i divided
+/// by the number of rays.
 /// \param rays   Number of shadow rays, at least 1.
 /// \param place  place(i, cells) returns a point of the unit square, in the i-th cell.
 /// \return Radiance towards `wo`, in W/(m^2 sr).

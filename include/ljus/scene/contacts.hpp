@@ -35,7 +35,7 @@ namespace ljus {
 /// | a lamp and any other surface             | the lamp; the brighter of two lamps |
 /// | an opaque surface and a transparent body | the opaque surface, without air     |
 /// |                                          | between them                        |
-/// | two transparent bodies on opposite sides | one boundary, of the relative index |
+/// | two transparent bodies on opposite sides | a boundary with the relative index  |
 /// | two transparent bodies on the same side  | the body of the higher index        |
 /// | two opaque surfaces                      | the surface whose material covers   |
 /// |                                          | less area                           |

@@ -41,7 +41,7 @@ template <std::floating_point T>
 
 /// The primary ray from a point of the lens, which is uniform if `u` is a uniform point
 /// of the unit square. The ray meets the ray through the pinhole in the plane of focus.
-/// `pixel` is as for a CameraT.
+/// `pixel` is the position in pixels from the upper left corner of the picture.
 /// \return A ray from the lens, with a direction of unit length.
 /// \cite cook1984
 // [lens ray]
