@@ -42,8 +42,7 @@ struct ScatteredT {
 /// \f$\omega_o\f$ the direction back along the path of the photon, and \f$\omega_i\f$
 /// the sampled direction. With this factor, photons and camera paths find the same
 /// light.
-/// \param material  The material from visit_material_at().
-/// \param u         A point of the unit cube.
+/// `material` comes from visit_material_at(), and `u` is a point of the unit cube.
 /// \return The direction; nothing if the path ends.
 /// \cite veach1997
 // [scatter]
