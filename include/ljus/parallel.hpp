@@ -27,8 +27,8 @@ namespace ljus {
 /// The largest number of threads that may be requested.
 inline constexpr int max_threads_allowed = 1024;
 
-/// The callback of a long loop: a callable that outlives the loop; see FunctionRef. The
-/// loop stops if the callback returns false.
+/// The callback of a long loop: a callable that must outlive the loop; see FunctionRef.
+/// The loop stops if the callback returns false.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };
 ///     parallel_blocks(count, body, {.progress = progress});
@@ -233,8 +233,9 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 /// \param count    The number of blocks. If it is 0 or negative, there are none.
 /// \param body     Called as body(long long), concurrently and in any order.
 /// \param options  The number of threads and the callback. The callback is called after
-///                 a block, unless another thread is in it. `done` is larger in each
-///                 call. When all blocks are done, (count, count) has been reported.
+///                 a block, unless another thread is calling it. `done` is larger in
+///                 each call. When all blocks are done, (count, count) has been
+///                 reported.
 /// \return True if all blocks ran; false if `progress` stopped the loop.
 /// \throws std::invalid_argument  if `options.threads` is not within [0, 1024]. If a
 ///         body or `progress` throws, no further block begins, and the loop throws the

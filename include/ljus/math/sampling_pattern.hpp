@@ -180,9 +180,9 @@ template <std::floating_point T>
 // [multi_jittered]
 
 /// A scrambled Sobol point.
-/// \return Point of the unit square, below 1. If a grid has 2^k cells and its numbers
-///         of columns and rows are powers of two, each cell has one of the first 2^k
-///         points.
+/// \return Point of the unit square, with coordinates below 1. If a grid has 2^k cells
+///         and its numbers of columns and rows are powers of two, each cell has one of
+///         the first 2^k points.
 /// \cite owen1995 \cite burley2020
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> scrambled_sobol(int number,
@@ -200,8 +200,8 @@ template <std::floating_point T>
 /// \param key      The pixel's key. The points of two pixels are independent if their
 ///                 keys differ; mix_bits() makes good keys of consecutive numbers.
 /// \param u        Two random numbers in [0, 1); Sobol points do not use them.
-/// \return Point of the unit square, uniform over keys and u. A coordinate may be
-///         rounded to 1.
+/// \return Point of the unit square, uniformly distributed for random `key` and `u`. A
+///         coordinate may be rounded to 1.
 /// \cost Some nanoseconds; \ref ch_first_picture has a table for 61 and for 64 points.
 /// \report{Section 3.2}
 // [spread]

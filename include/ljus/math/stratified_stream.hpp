@@ -16,7 +16,7 @@ namespace ljus {
 /// \{
 
 /// The random numbers of one ray of a pixel. In each draw, the pattern spreads the
-/// numbers of the pixel's rays evenly over the interval or the square. Each draw
+/// numbers of the pixel's rays evenly over [0, 1) or the unit square. Each draw
 /// permutes the rays in a different way, so that a ray's time does not depend on its
 /// position on the lens.
 struct StratifiedStream {
@@ -24,7 +24,7 @@ struct StratifiedStream {
     int ray = 0;           ///< The ray's number, in [0, pattern.points).
     std::uint64_t key = 0; ///< A random number that is the same in all rays of a pixel.
     std::uint64_t dimension = 0; ///< The index of the next draw.
-    RandomStream rest{};         ///< The stream of the positions within cells.
+    RandomStream rest{};         ///< The stream for the position within a cell.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
@@ -54,8 +54,8 @@ constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noex
 
 namespace detail {
 
-/// Chooses the ray's cell in the next draw, in [0, pattern.points), and sets `key` to
-/// the key of that draw.
+/// Begins the next draw: returns the number of the ray's cell, in [0, pattern.points),
+/// and sets `key` to the key of the draw.
 [[nodiscard]] constexpr std::uint32_t next_cell(StratifiedStream& stream,
                                                 std::uint64_t& key) noexcept {
     key = mix_bits(stream.key + 0x9e3779b97f4a7c15u * ++stream.dimension);

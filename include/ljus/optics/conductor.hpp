@@ -93,7 +93,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires an index that a metal can have. `what` is its name for the message.
+/// Requires that n and k are finite and at least 0. `what` names the index in the
+/// message.
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
     require_radiance(std::string(what) + ".n", index.n);

@@ -32,8 +32,8 @@ struct EnergyLossT {
     T mean = T(0); ///< The cosine-weighted mean of the loss over the hemisphere.
 };
 
-/// The cosine at a position of the table, from 0 to EnergyLossT::cells. It is \f$
-/// \alpha s^2 / (\alpha + 1 - s^2) \f$, where s is the position over
+/// The cosine at a position in the table, from 0 to EnergyLossT::cells. It is
+/// \f$ \alpha s^2 / (\alpha + 1 - s^2) \f$, where s is the position divided by
 /// EnergyLossT::cells.
 template <std::floating_point T>
 [[nodiscard]] constexpr T facet_cosine(T alpha, T place) noexcept {

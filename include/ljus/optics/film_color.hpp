@@ -48,7 +48,7 @@ template <std::floating_point T, typename Spectrum>
 
 /// The colour of a film by integration over the spectrum, as a reference for the other
 /// functions. The samples resolve the fringes of the film.
-/// \return It may be outside the range of a screen.
+/// \return Linear sRGB, which may be outside the range of a screen.
 /// \cost 470 wavelengths for a film of 400 nm, and 120 000 for a film of 1 mm.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> film_spectral(T cos_theta, T index, T thickness) {
@@ -118,7 +118,7 @@ template <std::floating_point T>
 /// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
 /// defines. Each cosine is replaced by its mean over the spectrum, visible_swing(). The
 /// sum ends at k = 3.
-/// \return It may be outside the range of a screen.
+/// \return Linear sRGB, which may be outside the range of a screen.
 /// \cost Three calls of visible_swing().
 /// \cite belcour2017
 // [preintegrated]

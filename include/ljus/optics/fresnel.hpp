@@ -24,8 +24,8 @@ enum class FresnelModel : std::uint8_t {
 
 namespace detail {
 
-/// ((a - b)/(a + b))^2, as 1 - 4ab/(a + b)^2 where that is more precise. a and b are at
-/// least 0, and not both 0.
+/// The square of (a - b)/(a + b), computed as 1 - 4ab/(a + b)^2 where that is more
+/// precise. a and b are at least 0, and not both 0.
 template <std::floating_point T>
 [[nodiscard]] constexpr T squared_contrast(T a, T b) noexcept {
     const T sum = a + b;

@@ -8,7 +8,7 @@
 namespace ljus {
 
 /// \defgroup reflection Mirror reflection
-/// \brief Section 3.2.4: a ray perfectly reflected over the normal.
+/// \brief Section 3.2.4: the reflection of a ray by a perfect mirror.
 /// \{
 
 /// The direction of a ray after a mirror reflection.

@@ -40,7 +40,7 @@ struct SeenLampT {
     RgbT<T> radiance{T(0)}; ///< The lamp's radiance in W/(m^2 sr).
 };
 
-/// Nothing if the form factor of the light is not known.
+/// What a vertex sees of a lamp; nothing if the form factor of the light is not known.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<SeenLampT<T>> seen_lamp(const W& world, std::uint32_t light,
                                                     const VertexT<T>& vertex) {
@@ -63,7 +63,8 @@ template <std::floating_point T>
     return lamp.form_factor * material.albedo * lamp.radiance;
 }
 
-/// `all` times arrived / sent, per channel; 0 where nothing was sent.
+/// Multiplies each channel of `all` by the ratio of `arrived` to `sent`. A channel in
+/// which nothing was sent becomes 0.
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> visible_part(const RgbT<T>& all, const RgbT<T>& arrived,
                                    const RgbT<T>& sent) noexcept {
@@ -81,8 +82,8 @@ template <std::floating_point T>
 /// Here \f$\varrho\f$ is the albedo, L_e the radiance of the lamp, F the form factor,
 /// f_i the unoccluded light of the i-th shadow ray, and V_i its visibility. Where the
 /// lamp is fully visible or fully occluded there is no noise. In a penumbra the ratio
-/// of two random sums has a bias; it is of the order of the variance of f_i over the
-/// number of rays.
+/// of two random sums has a bias; it is of the order of the variance of f_i divided
+/// by the number of rays.
 /// \param rays   Number of shadow rays, at least 1.
 /// \param place  place(i, cells) returns a point of the unit square, in the i-th cell.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
@@ -209,12 +210,12 @@ public:
     [[nodiscard]] const std::optional<SeenLampT<T>>& lamp(std::uint32_t light) const {
         return lamps_[light];
     }
-    /// Whether a lamp is faint, by the result of its sent_by().
+    /// Whether a lamp is faint. `by_it` is the result of sent_by() for the lamp.
     [[nodiscard]] bool is_faint(T by_it) const noexcept {
         return mean_rays(by_it) < T(1);
     }
-    /// The number of rays to the next lamp, by the result of its sent_by(). The calls
-    /// must follow the order of the lights.
+    /// The number of rays to the next lamp. `by_it` is the result of sent_by() for the
+    /// lamp. The calls must follow the order of the lights.
     [[nodiscard]] int rays_to(T by_it) noexcept {
         if (!is_faint(by_it)) return int(std::ceil(mean_rays(by_it)));
         next_ += by_it * scale_;
@@ -222,8 +223,11 @@ public:
         next_ -= whole;
         return int(whole);
     }
-    /// Adds the light of a faint lamp: its unoccluded light, the result of
-    /// analytic_light(), the number of rays to the lamp, and the result of sent_by().
+    /// Adds the light of a faint lamp.
+    /// \param all      The result of unoccluded().
+    /// \param arrived  The result of analytic_light(); 0 without rays.
+    /// \param rays     The number of rays to the lamp.
+    /// \param by_it    The result of sent_by().
     void add(const RgbT<T>& all, const RgbT<T>& arrived, int rays, T by_it) noexcept {
         all_ += all;
         if (rays == 0) return;
@@ -255,8 +259,8 @@ struct NoVerdicts {
     }
 };
 
-/// The point of the unit square for the i-th ray to a light, in a cell of its own at
-/// the position `u`, which is the same for all rays of a vertex.
+/// The point of the unit square for the i-th ray to a light. Each ray has its own cell.
+/// The position `u` within the cell is the same for all rays of a vertex.
 template <std::floating_point T, typename Context>
 [[nodiscard]] Vec2T<T> place_of_ray(int i, const Strata& cells, const Vec2T<T>& u,
                                     const Context& context) noexcept {

@@ -42,7 +42,7 @@ struct ScatteredT {
 /// \f$\omega_o\f$ the direction back along the path of the photon, and \f$\omega_i\f$
 /// the sampled direction. With this factor, photons and camera paths find the same
 /// light.
-/// The material is that of visit_material_at(), and u a point of [0,1)^3.
+/// `material` comes from visit_material_at(), and `u` is a point of the unit cube.
 /// \return The direction; nothing if the path ends.
 /// \cite veach1997
 // [scatter]

@@ -185,8 +185,10 @@ template <AnyWorld W, std::floating_point T, Material M>
 /// The radiance that a surface reflects from one light, by one shadow ray:
 /// \f$ f\,|\cos\theta|\,L_e\,V / p \f$. Here f is the BSDF, theta the angle of the ray
 /// to the normal, L_e the emitted radiance, V the visibility, and p the density of the
-/// ray per steradian. The point `u` of the unit square chooses the point of the light.
-/// No ray is cast if the surface cannot reflect it, or for Verdict::lit.
+/// ray per steradian. The result is also multiplied by the transmittance of the medium
+/// and by the weight that `mis` selects. The point `u` of the unit square chooses the
+/// point of the light. No ray is cast if the surface cannot reflect the light, or for
+/// Verdict::lit.
 /// \return Radiance towards `wo`, in W/(m^2 sr).
 /// \report{Section 3.2.3}
 /// \erratum{The report's program divides the sum over the lights by their number. A
@@ -201,7 +203,8 @@ template <AnyWorld W, std::floating_point T, Material M>
 }
 
 /// The direct light at a vertex of a path, by one shadow ray to one light. The light is
-/// chosen in proportion to its power; the scene must have one. Three numbers are drawn.
+/// chosen in proportion to its power. The scene must have a light. Three numbers are
+/// drawn.
 /// \return Throughput times radiance times the weight.
 /// \report{Section 3.2.3}
 // [sampled]

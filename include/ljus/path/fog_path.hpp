@@ -115,10 +115,10 @@ template <std::floating_point T>
 /// \cite wilkie2014. If several media lie on the segment, a flight is sampled for each,
 /// and the shortest counts.
 ///
-/// The segment must lie outside all bodies, and the path be at its end. The path's
-/// throughput is multiplied by the weight of the flight. If the path reaches the
-/// surface, its pdf is multiplied by the mean transmittance. One number is drawn, and
-/// one for each medium on the segment.
+/// The segment must lie outside all bodies, and the path must be at the end of the
+/// segment. The throughput of the path is multiplied by the weight of the flight. If
+/// the path reaches the surface, its pdf is multiplied by the mean transmittance. One
+/// number is drawn, and one for each medium on the segment.
 /// \return The vertex where fog scatters the path; nothing if the path reaches the
 ///         surface.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>

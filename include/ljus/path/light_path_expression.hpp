@@ -18,10 +18,10 @@ namespace ljus {
 /// \brief Regular expressions for sets of light paths. Chapter:
 /// \ref ch_light_transport.
 ///
-/// In a word for a path, E is the eye, D a diffuse or glossy surface, S a mirror or a
-/// boundary of glass, and L the light. A class of paths is a regular expression over
-/// these letters. It begins at the eye; Heckbert \cite heckbert1990 begins at the
-/// light.
+/// A path is written as a string of letters: E is the eye, D a diffuse or glossy
+/// surface, S a mirror or a boundary of glass, and L the light. A class of paths is a
+/// regular expression over these letters. It begins at the eye; Heckbert
+/// \cite heckbert1990 begins at the light.
 /// \{
 
 /// A compiled class of paths: Glushkov's automaton. State 0 is the start. Each letter

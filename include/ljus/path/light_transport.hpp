@@ -116,8 +116,8 @@ class OnlyPaths {
 public:
     using Stream = typename R::Stream; ///< The random stream of the other renderer.
 
-    /// Carries the paths of another renderer, which must outlive this one, in a class
-    /// for light_path_expression().
+    /// Makes the renderer. The other renderer, `whole`, must outlive it. `carried` is
+    /// the class of paths, as for light_path_expression().
     /// \throws std::invalid_argument  as light_path_expression().
     OnlyPaths(Ref<R> whole, std::string_view carried)
         : whole_(whole), carried_(light_path_expression(carried)) {}
@@ -132,7 +132,7 @@ private:
     Ref<R> whole_;
     LightPathExpression carried_;
 };
-/// Deduces the renderer.
+/// Deduces the type of the other renderer.
 template <typename R>
 OnlyPaths(const R&, std::string_view) -> OnlyPaths<R>;
 

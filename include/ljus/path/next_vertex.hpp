@@ -357,13 +357,13 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has, not only lists, a thin surface.
+/// Whether a scene has a material of a thin surface, and does not merely list its type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has, not only lists, a shape that moves.
+/// Whether a scene has a shape that moves, and does not merely list its type.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
@@ -373,7 +373,7 @@ template <AnyWorld W>
 
 /// Samples the time of a new path while the shutter is open \cite cook1984.
 /// \param stream  One number is drawn if the scene has a moving shape.
-/// \return In [0, 1); 0 if nothing moves.
+/// \return The time, in [0, 1); 0 if nothing moves.
 /// \report{Section 2.1}
 template <AnyWorld W, StreamLike Stream>
 [[nodiscard]] typename W::Scalar path_time(const W& world, Stream& stream) {
@@ -524,7 +524,8 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     return passage;
 }
 
-/// The result of pass_surfaces(), which is not called if there are no such surfaces.
+/// Calls pass_surfaces() if the scene has thin surfaces or priorities. Otherwise the
+/// path passes no surfaces.
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] inline PassageT<T> passage(const W& world, PathStateT<T>& path,
                                          std::optional<SceneHitT<T>>& hit,
@@ -555,7 +556,8 @@ template <AnyWorld W>
         });
 }
 
-/// The absorption coefficient in a body of a rank, per scene unit; nothing for air.
+/// The absorption coefficient in a body whose material has the given rank, per scene
+/// unit; nothing for air, or if the material has no absorption().
 template <AnyWorld W>
 [[nodiscard]] std::optional<RgbT<typename W::Scalar>>
 medium_of_rank(const W& world, std::uint8_t rank) {
@@ -662,8 +664,9 @@ template <AnyWorld W, std::floating_point T>
 
 namespace detail {
 
-/// Sets the medium of a path if PathStateT::medium_known is false: at the start of the
-/// path, and in a scene whose bodies may lie inside others, where it has left a body.
+/// Finds the medium of a path in a scene without priorities, if
+/// PathStateT::medium_known is false: at the start of the path and, in a scene whose
+/// bodies may lie inside others, after the path has left a body.
 template <AnyWorld W, std::floating_point T>
 inline void find_medium(const W& world, PathStateT<T>& path) {
     if constexpr (lists_media<W>) {
@@ -674,8 +677,9 @@ inline void find_medium(const W& world, PathStateT<T>& path) {
     }
 }
 
-/// In a scene with priorities, sets the index of refraction on the outside of a vertex,
-/// and the medium of the path: that of the body with the highest priority around it.
+/// In a scene with priorities, sets the index of refraction on the outside of a vertex.
+/// The medium of the path becomes that of the body with the highest priority around the
+/// path.
 /// \param outside  The rank of the body on the outside, see BodyList; 0 is air.
 template <AnyWorld W, std::floating_point T>
 inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,

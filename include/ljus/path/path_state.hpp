@@ -30,7 +30,8 @@ struct PathStateT {
     /// In a scene with priorities, the bodies around the path. If the list is empty,
     /// next_vertex() looks for them.
     BodyList bodies{};
-    /// In a scene with priorities, the bodies behind the surface of the vertex.
+    /// In a scene with priorities, the bodies behind the surface that the path has
+    /// reached.
     BodyList behind{};
     Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
     /// Density of the ray's direction, per steradian; 0 after a specular lobe.

@@ -54,7 +54,7 @@ struct Counts {
 
 namespace detail {
 
-/// Counts a path if `cut` is true. Returns `cut`.
+/// Counts a path in Counts::cut_paths if `cut` is true. Returns `cut`.
 constexpr bool cut_if(bool cut, Counts& counts) noexcept {
     counts.cut_paths += cut ? 1u : 0u;
     return cut;

@@ -11,22 +11,28 @@
 namespace ljus {
 
 /// \defgroup subpath_weights Weights of joined paths
-/// \brief The balance heuristic over all strategies that find a path from both ends, by
-/// two numbers per vertex \cite georgiev2012 \cite hachisuka2012. Chapter:
-/// \ref ch_both_ends.
+/// \brief The balance heuristic over all strategies that find a path from both ends,
+/// computed from two numbers per vertex \cite georgiev2012 \cite hachisuka2012.
+/// Chapter: \ref ch_both_ends.
 ///
 /// A path from the eye and a path from a light are the two *subpaths* of a whole path.
 /// A *strategy* says at which vertices the subpaths are joined, and how: by a
 /// connection of two vertices, or by merging two vertices that are close together. The
 /// *opposite way* of a subpath is the way from its last vertex back to its first.
 ///
-/// The arguments of the functions, if not said otherwise: `at` are the weights of a
-/// subpath at its last vertex. `pdf` is the density of the next direction, and `back`
-/// that of the last direction on the opposite way, both per steradian. At a mirror or
-/// clear glass both densities are infinite; they cancel, and are given as 0. `cosine`
-/// is the |cosine| of a direction and the geometric normal, `probability` that of
-/// choosing the light, and `merging` is \f$\eta\f$ of SubpathWeights, 0 without
-/// merging.
+/// If not said otherwise, the functions have these arguments:
+///
+/// | argument      | meaning                                                         |
+/// |---------------|-----------------------------------------------------------------|
+/// | `at`          | the weights of a subpath at its last vertex                     |
+/// | `pdf`         | density of the next direction, per steradian                    |
+/// | `back`        | density of the last direction on the opposite way               |
+/// | `cosine`      | absolute cosine between a direction and the geometric normal    |
+/// | `probability` | probability of choosing the light                               |
+/// | `merging`     | \f$\eta\f$ of SubpathWeights; 0 without merging                 |
+///
+/// At a mirror or clear glass, both densities are infinite. They cancel, and are given
+/// as 0.
 /// \{
 
 /// Two numbers for the last vertex x of a subpath. Let x be connected to a vertex y of
@@ -66,9 +72,9 @@ struct LightEnd {
 }
 // [start]
 
-/// The weights, for arrived(), after a subpath has scattered at its last vertex. The
-/// cosine is that of the next direction. At a mirror or glass it is that of the last
-/// direction instead, which cancels the division in arrived().
+/// The weights, for arrived(), after a subpath has scattered at its last vertex.
+/// `cosine` belongs to the next direction. At a mirror or glass it belongs to the last
+/// direction instead, and cancels the division in arrived().
 // [recursion]
 [[nodiscard]] inline SubpathWeights scattered(const SubpathWeights& at, double pdf,
                                               double back, double cosine,
@@ -78,15 +84,15 @@ struct LightEnd {
 }
 
 /// The weights at the next vertex of a subpath, from the result of started() or
-/// scattered() and the squared distance of the two vertices.
+/// scattered() and the squared distance between the two vertices.
 [[nodiscard]] inline SubpathWeights arrived(const SubpathWeights& from, double cosine,
                                             double distance2) noexcept {
     return {from.join * distance2 / cosine, from.further / cosine};
 }
 
 /// The sum of the densities of all strategies whose joint lies on one subpath of a
-/// connection, relative to the density of the connection; see SubpathWeights. `density`
-/// is that with which a path from the other vertex finds the last vertex, per area.
+/// connection, relative to the density of the connection; see SubpathWeights. A path
+/// from the other vertex finds the last vertex with this `density`, per area.
 [[nodiscard]] inline double others(const SubpathWeights& at, double density,
                                    double back, double merging) noexcept {
     return density * (at.join + merging + back * at.further);
@@ -161,8 +167,8 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct TurnT {
     RgbT<T> f{T(0)};   ///< The BSDF, in 1/sr; 0 if the normals disagree about the side.
-    T shading = T(0);  ///< |cosine| of the direction and the shading normal.
-    double cosine = 0; ///< |cosine| of the direction and the geometric normal.
+    T shading = T(0);  ///< Absolute cosine to the shading normal.
+    double cosine = 0; ///< Absolute cosine to the geometric normal.
     double pdf = 0;    ///< Density of the direction, per steradian.
     /// Density of `wo` for a path that arrives from this direction, per steradian.
     double back = 0;

@@ -52,7 +52,8 @@ struct PatchGrid {
         return kind == detail::GridKind::ball ? (columns - 1) * rows + 2
                                               : (columns + 1) * (rows + 1);
     }
-    friend bool operator==(const PatchGrid&, const PatchGrid&) = default; ///< Equality.
+    /// True if all members are equal.
+    friend bool operator==(const PatchGrid&, const PatchGrid&) = default;
 };
 
 namespace detail {
@@ -182,8 +183,8 @@ template <typename S, std::floating_point T>
     return point;
 }
 
-/// The cell of a flat shape with the corners `whole`. Its normal is that of the side
-/// that the grid divides.
+/// A cell of a flat shape, with the normal of the side that the grid divides. `whole`
+/// has the corners of the shape.
 [[nodiscard]] inline Facet cell_facet(const PatchGrid& grid, const Facet& whole,
                                       std::uint32_t cell) noexcept {
     const CellPlace place = place_of(grid, cell);

@@ -83,7 +83,7 @@ void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int ra
 
 namespace detail {
 
-/// The visible fraction of the exchange between two patches, by `rays` >= 1 rays
+/// The visible fraction of the exchange between two patches, by one or more rays
 /// between random points of both. The weight of a ray is the product of the cosines at
 /// its ends, divided by its squared length.
 template <AnyWorld W>

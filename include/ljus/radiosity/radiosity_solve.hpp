@@ -43,8 +43,8 @@ struct SolveSettings {
 /// The radiosity of all patches.
 struct RadiositySolution {
     std::vector<RgbT<double>> radiosity{}; ///< Emitted plus reflected light, in W/m^2.
-    /// The unshot flux over the emitted flux, in the channel where this is largest: at
-    /// the start, and after each sweep.
+    /// The ratio of unshot to emitted flux, in the channel where the ratio is largest:
+    /// at the start, and after each sweep.
     std::vector<double> residual{};
     bool converged = true; ///< True if the tolerance was reached.
 };

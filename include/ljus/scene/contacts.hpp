@@ -35,16 +35,16 @@ namespace ljus {
 /// | a lamp and any other surface             | the lamp; the brighter of two lamps |
 /// | an opaque surface and a transparent body | the opaque surface, without air     |
 /// |                                          | between them                        |
-/// | two transparent bodies on opposite sides | one boundary, of the relative index |
+/// | two transparent bodies on opposite sides | a boundary with the relative index  |
 /// | two transparent bodies on the same side  | the body of the higher index        |
 /// | two opaque surfaces                      | the surface whose material covers   |
 /// |                                          | less area                           |
 /// | a thin surface and any other surface     | the other surface                   |
 ///
 /// A World looks for contacts once, when it is made. It compares flat shapes, meshes,
-/// spheres and cylinders, even if they move together or along each other. In all other
-/// cases, as where two cylinders cross, a path meets the object that comes first in the
-/// order of types and indices.
+/// spheres and cylinders, even if they move together or slide along each other. In all
+/// other cases, as where two cylinders cross, a path meets the object that comes first
+/// in the order of types and indices.
 /// \{
 
 template <std::floating_point T>
@@ -266,8 +266,9 @@ template <std::floating_point T>
 /// the same appearance, and their boxes are not compared with each other.
 class LookTree {
 public:
-    /// Builds the tree. The boxes are enlarged by contact_distance(), and in units of
-    /// the scene's largest coordinate, so that floats can represent them.
+    /// Builds the tree. The boxes must have been enlarged by contact_distance(). They
+    /// must be in units of the scene's largest coordinate, so that floats can represent
+    /// them.
     LookTree(std::vector<Box> boxes, std::vector<std::uint32_t> looks)
         : boxes_(std::move(boxes)), looks_(std::move(looks)),
           tree_(build_bvh<float>(boxes_)), below_(tree_.nodes.size(), several) {
@@ -384,7 +385,7 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
     return pieces;
 }
 
-/// Finds the pairs of objects with pieces in one place, as numbers in
+/// Finds the pairs of objects with pieces in one place, as indices of
 /// ContactSearch::objects.
 [[gnu::cold]] inline void find_pairs(Contacts& contacts, const ContactSearch& search,
                                      const std::vector<std::uint32_t>& looks) {
@@ -486,9 +487,9 @@ LJUS_CORE_INLINE Contacts contacts_of(const ContactSearch& search) {
 
 } // namespace detail
 
-/// Finds the contacts of a World whose shapes, objects and materials are complete, from
-/// the box of each object, in the order of types and indices. The order in which the
-/// objects were added affects only the order of the contacts.
+/// Finds the contacts of a World whose shapes, objects and materials are complete. The
+/// boxes of the objects are given in the order of types and indices. The order in which
+/// the objects were added affects only the order of the contacts.
 /// \cost O(n log n) for n boxes; less if neighbouring objects are opaque and have the
 ///       same material.
 template <typename W>

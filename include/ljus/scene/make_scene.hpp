@@ -85,8 +85,8 @@ concept ScenePart = requires {
     typename PartOf<Part>::Shape;
 };
 
-/// An argument with a shape. The shapes determine the precision of a scene, which
-/// therefore needs at least one.
+/// An argument with a shape. A scene needs at least one shape, because the shapes
+/// determine the precision.
 template <typename Part>
 concept PlacedPart =
     ScenePart<Part> && !std::is_same_v<typename PartOf<Part>::Shape, TypeList<>>;

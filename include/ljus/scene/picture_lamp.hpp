@@ -23,8 +23,8 @@ namespace ljus {
 ///     scene.add(quad, window, Rgb{1});
 template <std::floating_point T>
 struct PictureLampT {
-    using Scalar = T;                     ///< The precision.
-    static constexpr bool uses_uv = true; ///< The picture lies in the shape's (u, v).
+    using Scalar = T;                     ///< The precision of its numbers.
+    static constexpr bool uses_uv = true; ///< The picture is looked up by uv.
     /// The factors of the radiance, at least 0 and not all black. The picture may have
     /// any width and height.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};

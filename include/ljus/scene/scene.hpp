@@ -137,7 +137,7 @@ struct PrototypeOf<S>
     : std::type_identity<std::remove_cvref_t<decltype(prototype(std::declval<S>()))>> {
 };
 
-/// The first PrototypeOf the shapes of a list that is not void, or void.
+/// PrototypeOf the first shape in a list that refers to an object; void if none does.
 template <typename... S>
 struct PrototypeIn : std::type_identity<void> {};
 template <typename First, typename... S>
@@ -157,8 +157,8 @@ public:
         kept_.push_back(std::move(one));
         return kept_.back();
     }
-    /// \throws std::invalid_argument  if the object to which a shape refers is not kept
-    ///         here.
+    /// Refuses a shape that refers to an object which is not kept here.
+    /// \throws std::invalid_argument  for such a shape.
     template <typename S>
     void require_kept(const S& shape) const {
         if constexpr (!std::is_void_v<typename PrototypeOf<S>::type>) {

@@ -187,7 +187,7 @@ public:
     /// The type of the tree: Bvh8 for float, BvhT for other precisions.
     using Tree = std::conditional_t<std::is_same_v<Scalar, float>, Bvh8, BvhT<Scalar>>;
 
-    /// Closes a scene, which is moved, or copied if it has no instances.
+    /// Closes a scene. A scene without instances may be copied instead of moved.
     /// \throws std::invalid_argument  if the scene contains data that add() would
     ///         refuse, or if its arrays are inconsistent.
     [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
@@ -307,7 +307,7 @@ public:
         return object.light == no_light ? nullptr
                                         : picture_of(lights_[object.light].index);
     }
-    /// Whether a path can meet a light: whether it is an object or fills the sky.
+    /// Whether a path can meet a light: the light is an object or fills the sky.
     [[nodiscard]] bool can_be_met(std::uint32_t light) const {
         if constexpr (any_light([]<typename L>() { return FillsSky<L>; }))
             if (lights_[light].is_light)

@@ -25,8 +25,9 @@ namespace ljus {
 /// The camera of all the report's pictures: at (-7, 0, 0), with a field of view of
 /// 53.13 degrees.
 ///
-/// The point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of the width from the
-/// left, and at the fraction 1/2 - z/(x + 7) of the height from the top.
+/// In a square picture, the point (x, y, z) appears at the fraction 1/2 - y/(x + 7) of
+/// the width from the left, and at the fraction 1/2 - z/(x + 7) of the height from the
+/// top.
 template <std::floating_point T = float>
 [[nodiscard]] CameraT<T> report_camera() {
     return look_at(ViewT<T>{.position{T(-7), T(0), T(0)},
