@@ -125,8 +125,8 @@ struct SobolStream {
     RandomStream rest{};         ///< Supplies the numbers after the last dimension.
 };
 
-/// The stream of one path, for the arguments of random_stream(). Each iteration has its
-/// own scrambling. The scrambling also changes after each 2^32 paths.
+/// The stream of one path; the parameters are those of random_stream(). Each iteration
+/// has its own scrambling. The scrambling also changes after each 2^32 paths.
 [[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
                                                  std::uint64_t iteration,
                                                  std::uint64_t path) noexcept {
