@@ -54,8 +54,8 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
 /// Pi times the BRDF: Fujii's second model plus a term for the light that this model
-/// loses, see \ref multiple_scattering. The factor A r of eon_loss() cancels,
-/// so that a roughness of 0 needs no special case.
+/// loses, see \ref multiple_scattering. The factor A r of eon_loss() cancels, so that a
+/// roughness of 0 needs no special case.
 /// \param wo, wi  Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, two square roots, nine divisions.

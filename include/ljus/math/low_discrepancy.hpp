@@ -112,9 +112,9 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The random numbers of one path. The first sobol_dimensions numbers are a scrambled
-/// Sobol point, and all further ones are random. The points of all paths of a pass fill
-/// the unit cube evenly.
+/// The random numbers of one path. The first 16 numbers are a scrambled Sobol point,
+/// and all further ones are random. The points of all paths of a pass fill the unit
+/// cube evenly.
 ///
 /// Each number alone is uniform, so that expected values stay the same. The numbers of
 /// one path are independent of each other.
