@@ -506,14 +506,13 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 
 } // namespace detail
 
-/// Loads all layers of an EXR file. It may have scanlines or tiles, one part or
+/// Loads all layers of an EXR file. The file may have scanlines or tiles, one part or
 /// several, numbers of any type, and every compression that OpenEXRCore reads. Deep
-/// parts are left out, and so are channels with fewer values than pixels.
-/// \return The layers in the order of the parts, and within a part in the order of
-///         names. Channels R, G, B or X, Y, Z with the same layer name form a layer;
-///         every other channel is a layer of its own. In a file of several parts, the
-///         name of a part is the layer name of its channels that have none. A layer has
-///         the pixels of its part's data window.
+/// parts and subsampled channels are left out.
+/// \return The layers in the order of the parts. Channels R, G, B or X, Y, Z with the
+///         same layer name form a layer; every other channel is a layer of its own. If
+///         the file has several parts, a channel without a layer name has the name of
+///         its part. A layer has the pixels of its part's data window.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is
 ///         damaged, or has more than 2^27 pixels in all layers together.
 /// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
@@ -527,10 +526,9 @@ template <std::floating_point T = float>
     return layers;
 }
 
-/// Loads one layer from an EXR file, such as "albedo"; for an empty name the picture
-/// itself, in colour from the channels R, G and B, or in grey from the channel Y.
-/// \return The picture of the data window, as it is stored: values may be negative,
-///         infinite or NaN.
+/// Loads one layer of an EXR file, such as "albedo". With an empty name, loads the
+/// picture itself: in colour from channels R, G and B, or in grey from a channel Y.
+/// \return The pixels of the data window. They may be negative, infinite or NaN.
 /// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
 ///         (the message lists its layers), has other primaries than sRGB, or has more
 ///         than 2^25 pixels.

@@ -273,7 +273,8 @@ private:
 /// renames leaves the complete new file as `a.png.ljus-part0`, which the next save of
 /// `a.png` removes. A program that wants an exception when a file-size limit is reached
 /// must ignore SIGXFSZ.
-/// \throws std::runtime_error  "cannot write 'out/a.png': No space left on device.".
+/// \throws std::runtime_error  if the file cannot be written: "cannot write
+///         'out/a.png': No space left on device.".
 [[gnu::cold]] inline void save_file(const std::string& path, const Bytes& bytes) {
     detail::FileBeside file(detail::file_to_replace(path));
     file.write(bytes);

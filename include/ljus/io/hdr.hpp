@@ -21,14 +21,15 @@ namespace ljus {
 
 /// \defgroup hdr HDR
 /// \brief The three channels of a pixel share an exponent. The format spans 76 decades;
-/// its error is 0.4 % of the largest channel of a pixel.
+/// its error is at most 0.4 % of the largest channel of a pixel.
 /// \{
 
 namespace detail {
 
-/// Encodes a colour in four bytes: round(256 c / 2^e) for each channel c, and e + 128,
-/// where 2^e is the smallest power of two above the largest channel \cite ward1991.
-/// \param c  A colour whose channels are at least 0 and below 1.69e38.
+/// Encodes a colour in four bytes: round(256 x / 2^e) for each channel x, and e + 128,
+/// where e is the smallest exponent for which each result fits in a byte
+/// \cite ward1991.
+/// \param c  The colour. Its channels are at least 0 and below 1.69e38.
 /// \return The bytes R, G, B and E; all 0 if the largest channel is below 2.9e-39. The
 ///         error of a channel is at most 1/256 of the largest one, and has no bias.
 [[nodiscard]] inline std::array<unsigned char, 4>

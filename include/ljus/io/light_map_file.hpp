@@ -16,9 +16,9 @@ namespace ljus {
 /// \brief Saves and loads light maps: "radiosity can easily be precomputed since it is
 /// view independent" (Section 2.2).
 ///
-/// A file has the header of \ref binary_file, with the number of grids and the hash of
-/// the scene. Then follow the hash of the settings, the grids, and the irradiance of
-/// each patch as three doubles.
+/// A file has the header of \ref binary_file, with the number of patch grids and the
+/// hash of the scene. Then follow the hash of the settings, the grids, and the
+/// irradiance of each patch as three doubles.
 /// \{
 
 namespace detail {
@@ -85,8 +85,8 @@ inline void save_light_map(const std::string& path, const LightMap& map) {
 /// Loads a light map of at most `most` patches. The file must have the key `key`, from
 /// light_map_key().
 /// \return The map, equal to the saved one in every bit.
-/// \throws std::runtime_error  "cannot read 'a.light': it was made for another scene,
-///         ..." if the scene or the settings differ; otherwise as open_file().
+/// \throws std::runtime_error  as open_file(), or if the scene or the settings differ:
+///         "cannot read 'a.light': it was made for another scene, ...".
 [[nodiscard]] inline LightMap load_light_map(const std::string& path,
                                              const LightMapKey& key,
                                              std::size_t most = 10'000'000) {

@@ -67,7 +67,7 @@ template <std::floating_point T = float>
 }
 
 /// Loads a glTF file; see read_gltf().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_gltf(), or if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_gltf(const std::string& path,
                                        const MeshFileSettings& settings = {}) {

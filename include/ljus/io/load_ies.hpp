@@ -246,7 +246,7 @@ struct IesGrid {
 }
 
 /// Loads an IES file; see read_ies().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_ies(), or if the file cannot be read.
 [[nodiscard]] inline IesLamp load_ies(const std::string& path) {
     return read_ies(detail::load_text(path, detail::max_ies_file), path);
 }

@@ -234,7 +234,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright
-///         by its EXIF orientation. A pixel whose number is beyond the end of its
+///         by its EXIF orientation. A pixel whose index is beyond the end of the
 ///         palette is black.
 /// \throws std::runtime_error  with path and reason, if the file is not a picture or is
 ///         too large, or if colours are read from a file that declares a colour space

@@ -193,7 +193,7 @@ template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT
 }
 
 /// Loads a scene file; see read_json_scene().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_json_scene(), or if the file cannot be read.
 template <std::floating_point T = float, typename LoadMeshes = detail::NoMeshesT<T>>
 [[nodiscard]] LoadedSceneT<T> load_json(const std::string& path,
                                         LoadMeshes load_meshes = {}) {

@@ -423,7 +423,7 @@ template <std::floating_point T = float>
 }
 
 /// Loads an OBJ file; see read_obj().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_obj(), or if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_obj(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -331,7 +331,7 @@ private:
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
 /// with diffuse_ before each). Faces may have any number of corners. Colours are sRGB,
-/// as integers from 0 to the largest of their type or as floats from 0 to 1. They
+/// as integers from 0 to the largest value of their type or as floats from 0 to 1. They
 /// become a picture on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
@@ -351,7 +351,7 @@ template <std::floating_point T = float>
 }
 
 /// Loads a PLY file; see read_ply().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_ply(), or if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_ply(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

@@ -157,7 +157,7 @@ template <std::floating_point T = float>
 }
 
 /// Loads an STL file; see read_stl().
-/// \throws std::runtime_error  also if the file cannot be read.
+/// \throws std::runtime_error  as read_stl(), or if the file cannot be read.
 template <std::floating_point T = float>
 [[nodiscard]] LoadedMeshT<T> load_stl(const std::string& path,
                                       const MeshFileSettings& settings = {}) {

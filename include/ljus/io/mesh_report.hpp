@@ -29,7 +29,7 @@ enum class MeshTrouble : std::uint8_t {
     bad_index,  ///< A face with a vertex that does not exist; it is left out.
     no_such_uv, ///< A face with a uv that does not exist: it gets (0, 0).
     no_such_normal, ///< A face with a normal that does not exist: it is flat.
-    not_smooth,     ///< A face of a smoothing group, but without normals; it is flat.
+    not_smooth,     ///< A face without normals in a smoothing group; it is flat.
     few_corners,    ///< A face with fewer than three corners; it is left out.
     many_corners,   ///< A face with more than 1000 corners; it is left out.
     no_area,        ///< A face with an area of 0; it is left out.
@@ -55,7 +55,8 @@ inline constexpr std::size_t mesh_troubles = 21;
 /// The number of occurrences of a problem.
 struct MeshCount {
     long long count = 0; ///< Number of occurrences.
-    long long line = 0;  ///< The first occurrence, from 1; see MeshReport::unit.
+    long long line = 0;  ///< Number of the line, or other MeshReport::unit, of the
+                         ///< first occurrence; from 1.
 };
 
 /// The numbers of vertices, faces and other elements of a mesh file.

@@ -32,10 +32,10 @@ namespace ljus {
 /// the pages that a search needs.
 ///
 /// A file has the header of \ref binary_file, with the number of photons and a key.
-/// Four arrays follow, as in memory: the nodes of the tree, the blocks of points, the
-/// numbers of the points, and the blocks of records. Each array begins at a multiple of
-/// 64 KiB. The checksum is computed from the checksums of pieces of 1 MiB, so that
-/// several threads can work on it.
+/// Four arrays follow, as in memory: the nodes of the tree, the positions of the
+/// photons, the order of the photons, and their other data. Each array begins at a
+/// multiple of 64 KiB. The checksum is computed from the checksums of pieces of 1 MiB,
+/// so that several threads can work on it.
 /// \{
 
 namespace detail {
@@ -211,8 +211,8 @@ private:
 
 } // namespace detail
 
-/// Saves a photon map; see save_file(). By `key` the caller tells maps apart; it may be
-/// a hash of the scene and the settings.
+/// Saves a photon map; see save_file(). The caller chooses `key` to tell maps apart,
+/// for example a hash of the scene and the settings.
 /// \throws std::runtime_error  as save_file().
 /// \cost 50 bytes per photon in the file; no further memory.
 inline void save_photon_map(const std::string& path, const PhotonMap& map,
@@ -241,8 +241,8 @@ struct PhotonMapFileSettings {
     std::uint64_t key = 0;     ///< The key that the file must have.
     bool check = true;         ///< Whether the whole file is read and checked first.
                                ///< Otherwise damage is not noticed.
-    bool single_pages = false; ///< True to read no page ahead of a search;
-                               ///< for a map larger than the memory.
+    bool single_pages = false; ///< Whether the system reads single pages only, not
+                               ///< their neighbours: for a map larger than the memory.
     int threads = 0;           ///< Threads for the check, as in ParallelSettings.
 };
 
@@ -252,8 +252,8 @@ struct PhotonMapFileSettings {
 /// \return The map, equal to the saved one in every bit. The file stays mapped as long
 ///         as this map exists, or a map to which it is moved. A copy of the map does
 ///         not need the file.
-/// \throws std::runtime_error  "cannot read 'a.photons': it is damaged ..."; also on a
-///         system without mapped files.
+/// \throws std::runtime_error  if the file cannot be read, has another key or is
+///         damaged, or if the system cannot map files into memory.
 [[nodiscard]] inline PhotonMap
 open_photon_map(const std::string& path, const PhotonMapFileSettings& settings = {}) {
     detail::require_map_files(path);

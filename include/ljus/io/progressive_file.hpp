@@ -13,8 +13,8 @@ namespace ljus {
 /// resumed.
 ///
 /// A file has the header of \ref binary_file, with the block_side, width and height of
-/// the picture. Then follow the numbers of the state, the length of the text that
-/// describes the picture, and this text.
+/// the picture. Then follow the other members of ProgressiveState. The last is the
+/// description of the picture, preceded by its length.
 /// \{
 
 namespace detail {

@@ -21,8 +21,8 @@ namespace ljus {
 
 namespace detail {
 
-/// The tables of one kind of object. The member `type` chooses a table, unless there is
-/// only one.
+/// One kind of object in scene files, such as a light, and a table of its members for
+/// each type. The member `type` chooses the table, unless there is only one.
 struct JsonGroup {
     std::string_view name;           // name in the schema
     std::string_view heading, text;  // words on the page of the book
@@ -200,8 +200,8 @@ struct JsonGroup {
 
 } // namespace detail
 
-/// The JSON schema (draft 7) of scene files, for editors and checkers. It is made from
-/// the tables of the reader.
+/// The JSON schema (draft 7) of scene files, for editors and validators. It is made
+/// from the tables that load_json() uses.
 /// \return JSON, indented.
 [[nodiscard]] inline std::string scene_schema() {
     using Json = nlohmann::ordered_json;

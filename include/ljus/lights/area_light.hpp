@@ -21,7 +21,8 @@ struct LampT {
     T area = T(0);          ///< The area, in squared scene units.
     /// True if the lamp emits on the side opposite to its normal.
     bool inside_out = false;
-    /// The result of area_sums(), if the shape has this function.
+    /// Cumulative areas of the shape's parts, from area_sums(), for sampling; empty for
+    /// a shape without this function.
     std::vector<double> area_sums{};
 };
 
@@ -77,7 +78,7 @@ template <typename S>
 /// \return Nothing if `from` is not on the emitting side of the lamp.
 /// \report{Section 3.2.3}
 /// \erratum{The report's program leaves out the area of the lamp and the inverse square
-/// of the distance. It lights a wall ten times as far away as brightly as a near wall.}
+/// of the distance. A wall ten times as far away gets as much light as a near wall.}
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>> sample_light(const AreaLightT<S>& light,
                                                           const Vec3T<T>& from,

@@ -57,7 +57,7 @@ struct EnvironmentInSceneT {
     ImageT<T> picture{};           ///< Radiance times strength, in W/(m^2 sr).
     PiecewiseConstant2D density{}; ///< Brightness times solid angle of each pixel.
     RgbT<T> sum{T(0)};             ///< The integral of the radiance, in W/m^2.
-    T turn = T(0);                 ///< Rotation about +y, as a part of a full turn.
+    T turn = T(0);                 ///< Rotation about +y, in full turns.
     SphereT<T> around{};           ///< The sphere around the scene.
 };
 

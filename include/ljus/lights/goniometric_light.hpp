@@ -124,8 +124,9 @@ namespace detail {
     return x;
 }
 
-/// The x at which the integral from 0 of a linear function is the fraction `part` of
-/// its integral from 0 to 1. The function is a at 0 and b at 1; neither is negative.
+/// The x in [0, 1] that divides the area under a line: the area from 0 to x is the
+/// fraction `part` of the area from 0 to 1. The line has the height a at 0 and b at 1;
+/// neither is negative.
 [[nodiscard]] inline double invert_line(double a, double b, double part) noexcept {
     // x is the root in [0, 1] of (b - a) x^2 / 2 + a x = part (a + b) / 2.
     const double both = part * (a + b);
@@ -149,8 +150,8 @@ between_angles(const std::vector<double>& angles, double angle) noexcept {
                          (angle - angles[index]) / (angles[index + 1] - angles[index])};
 }
 
-/// The intensities at the corners of a cell of the table, in cd: in each array at the
-/// smaller and then at the larger azimuth.
+/// The intensities at the corners of a cell of the table, in cd. Each array has the
+/// intensity at the smaller azimuth, then that at the larger azimuth.
 struct CellCorners {
     double low[2] = {};  ///< Intensities at the smaller polar angle.
     double high[2] = {}; ///< Intensities at the larger polar angle.

@@ -221,9 +221,9 @@ template <std::floating_point T>
     return point;
 }
 
-/// A ray of a distant light through a random point of a disc that is perpendicular to
-/// the ray's unit direction. The ray starts on a plane that touches the sphere `around`
-/// the scene.
+/// A ray of a distant light through a random point of a disc. The disc has the given
+/// centre and radius, and is perpendicular to the unit direction of the ray. The ray
+/// starts on a plane that touches the sphere `around` the scene.
 template <std::floating_point T>
 [[nodiscard]] RayT<T> ray_from_afar(const SphereT<T>& around, const Vec3T<T>& direction,
                                     const Vec3T<T>& center, T radius,

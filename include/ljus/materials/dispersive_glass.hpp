@@ -30,7 +30,7 @@ concept DispersionLaw = requires(const Law& law, T nm) {
 template <std::floating_point T, DispersionLaw<T> Law = SellmeierT<T>>
 struct DispersiveGlassT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     Law law{};                                  ///< The index at each wavelength.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};

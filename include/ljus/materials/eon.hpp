@@ -32,11 +32,10 @@ using Eon = EonT<float>; ///< EonT in float.
 
 namespace detail {
 
-/// The loss of light of Fujii's second model \cite eon2025,
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the fraction of light
-/// that a white surface reflects, mu the cosine of the angle to the normal, s its sine,
-/// and r the roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes
-/// G.
+/// The fraction of light that a white surface loses in Fujii's second model, divided by
+/// A r \cite eon2025: \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the
+/// reflected fraction, mu the cosine of the angle to the normal, s its sine, and r the
+/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
 /// \return At least 0, at most k_1.
 // [eon loss]
 template <std::floating_point T>
@@ -55,8 +54,8 @@ inline constexpr T eon_mean_loss = fon_constant<T> -
                                     T(28) / T(15) * std::numbers::inv_pi_v<T>);
 
 /// Pi times the BRDF: Fujii's second model plus a term for the light that this model
-/// loses, see \ref multiple_scattering. The factor by which eon_loss() divides cancels,
-/// so that a roughness of 0 needs no special case.
+/// loses, see \ref multiple_scattering. The factor A r of eon_loss() cancels, so that a
+/// roughness of 0 needs no special case.
 /// \param wo, wi  Unit vectors on the same side.
 /// \return At least 0.
 /// \cost Two arc tangents, two square roots, nine divisions.

@@ -28,7 +28,7 @@ namespace ljus {
 template <std::floating_point T>
 struct GlassT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     T index = T(1.5);                           ///< Index of refraction inside.
     /// Absorption coefficient inside, per scene unit; at least 0.
     RgbT<T> absorption{T(0)};
@@ -57,10 +57,10 @@ template <std::floating_point T>
 struct GlassBoundaryT {
     std::optional<Vec3T<T>> refracted{}; ///< The refracted direction, if there is one.
     T reflectance = T(1);                ///< Fresnel's reflectance F, in [0, 1].
-    T eta_scale = T(1);                  ///< BsdfSampleT::eta_scale of refraction.
+    T eta_scale = T(1);                  ///< Factor of refracted radiance; 1 for flux.
 };
 
-/// Divides the light for the outgoing direction `wo`.
+/// Divides the light that leaves along `wo` between reflection and refraction.
 /// \cost Three square roots and six to eight divisions; fewer in total internal
 ///       reflection.
 template <std::floating_point T>
@@ -78,7 +78,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// Chooses reflection with probability F, Fresnel's reflectance, and otherwise
-/// refraction. The weight is 1, or BsdfSampleT::eta_scale for refraction.
+/// refraction. The weight is 1; for refracted radiance it is the squared ratio of the
+/// indices, BsdfSampleT::eta_scale.
 /// \cost That of refract() and fresnel().
 /// \report{Section 3.2.5}
 template <std::floating_point T>
@@ -141,7 +142,7 @@ void check(const GlassT<T>& glass) {
 template <std::floating_point T>
 struct ThinGlassT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     T index = T(1.5);                           ///< Index of refraction of the glass.
     /// Transmittance of the glass between its boundaries, for one crossing at normal
     /// incidence; in [0, 1].

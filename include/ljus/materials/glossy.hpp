@@ -35,8 +35,8 @@ template <std::floating_point T>
     return fresnel_conductor(cos_theta, index);
 }
 
-/// The smallest roughness that is not 0. Below it, the facets would vary so little that
-/// the rounding of a direction in float matters.
+/// The smallest roughness that is not 0. Below it, the normals of the facets would vary
+/// so little that the rounding of a direction in float matters.
 template <std::floating_point T>
 inline constexpr T min_roughness = T(0.01);
 
@@ -76,8 +76,9 @@ template <std::floating_point T, typename F>
 /// \f[ f = \frac{F(w_o \cdot h)\, D(h)\, G_2(w_o, w_i)}{4\, w_{o,z}\, w_{i,z}}
 ///       = \frac{F\, D}{2\,(w_{i,z}\, r(w_o) + w_{o,z}\, r(w_i))} \f]
 ///
-/// where h is the half vector, F the reflectance of a facet, D ggx_distribution(), G_2
-/// the fraction of facets visible from both directions, and r ggx_lambda().
+/// where h is the half vector, F the reflectance of a facet, D the density of facet
+/// normals from ggx_distribution(), G_2 the fraction of facets visible from both
+/// directions, and r the function ggx_lambda().
 /// \return f in 1/sr, without the cosine; 0 for directions on different sides, and at
 ///         grazing angles where f would overflow.
 /// \cost Three square roots.

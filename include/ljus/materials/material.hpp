@@ -216,7 +216,7 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. Its material_at() has a member `index`.
+/// 0 if m happens to be opaque. The result of material_at() has a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;

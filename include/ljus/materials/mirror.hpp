@@ -21,7 +21,7 @@ namespace ljus {
 template <std::floating_point T>
 struct MirrorT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     RgbT<T> reflectance{T(1)}; ///< Reflected fraction of the light, in [0, 1].
 };
 using Mirror = MirrorT<float>; ///< MirrorT in float.
@@ -58,7 +58,7 @@ void check(const MirrorT<T>& mirror) {
 template <std::floating_point T>
 struct MetalT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     ConductorIndexT<T> index = gold<T>; ///< Complex index of refraction, per channel.
 };
 using Metal = MetalT<float>; ///< MetalT in float.

@@ -35,15 +35,15 @@ namespace ljus {
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct MixtureT {
-    using Scalar = T;         ///< The precision of its numbers.
-    RgbT<T> color{T(0.5)};    ///< Colour of matt lobe and emission, in [0, 1].
-    T reflectivity = T(0);    ///< Fraction reflected by a perfect mirror, in [0, 1].
-    T transparency = T(0);    ///< Transmitted fraction of entering light, in [0, 1].
-    T index = T(1.5);         ///< Index of refraction inside.
-    T specularity = T(0);     ///< Factor of Fresnel's reflectance, in [0, 1].
-    T emissivity = T(0);      ///< Emitted radiance / color, in W/(m^2 sr), >= 0.
-    T sigma = T(0);           ///< Sigma of the matt lobe, in radians; see OrenNayar.
-    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
+    using Scalar = T;      ///< The precision of its numbers.
+    RgbT<T> color{T(0.5)}; ///< Colour of matt lobe and emission, in [0, 1].
+    T reflectivity = T(0); ///< Fraction reflected by a perfect mirror, in [0, 1].
+    T transparency = T(0); ///< Transmitted fraction of entering light, in [0, 1].
+    T index = T(1.5);      ///< Index of refraction inside.
+    T specularity = T(0);  ///< Factor of Fresnel's reflectance, in [0, 1].
+    T emissivity = T(0);   ///< Emitted radiance over `color`, W/(m^2 sr), at least 0.
+    T sigma = T(0);        ///< Sigma of the matt lobe, in radians; see OrenNayar.
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit; at least 0.
 };
 using Mixture = MixtureT<float>; ///< MixtureT in float.
 

@@ -20,7 +20,7 @@ template <Material Base>
 requires Transparent<Base>
 struct Nested {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Scattering is that of the base.
     static constexpr bool uses_uv = UsesUv<Base>;  ///< True if the base uses uv.
     Base base{};                                   ///< The material.
     /// Where bodies overlap, the body with the highest priority fills the space. A
@@ -45,7 +45,7 @@ template <typename Base>
 /// \name Functions of the base
 /// \{
 
-/// As split() of the base.
+/// The reflected and the refracted sample of the base, for a path that splits.
 template <typename Base, std::floating_point T>
 [[nodiscard]] auto split(const Nested<Base>& nested, const Vec3T<T>& wo,
                          Transport transport) noexcept

@@ -42,8 +42,8 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// The larger of the cosines between two directions and the normal, but at least
-/// epsilon^2, so that a division by the result stays finite for grazing directions.
+/// The larger of the cosines between two directions and the normal, but at least the
+/// square of the machine epsilon, so that a division by the result stays finite.
 template <std::floating_point T>
 [[nodiscard]] T larger_cosine(const Vec3T<T>& wo, const Vec3T<T>& wi) noexcept {
     constexpr T epsilon = std::numeric_limits<T>::epsilon();

@@ -103,9 +103,9 @@ template <std::floating_point T>
 }
 // [full]
 
-/// Fujii's term s/t. Here s is the product of the sines of the angles of wo and wi to
-/// the normal and the cosine of the angle between their azimuths. If s is positive, t
-/// is the larger of the two cosines to the normal, otherwise 1.
+/// Fujii's term s/t. With theta_o and theta_i the angles of wo and wi to the normal,
+/// and phi the angle between their azimuths, s is sin(theta_o) sin(theta_i) cos(phi).
+/// If s is positive, t is the larger of cos(theta_o) and cos(theta_i), otherwise 1.
 /// \return At least -1.
 // [fujii]
 template <std::floating_point T>

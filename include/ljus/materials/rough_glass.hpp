@@ -41,7 +41,7 @@ struct RoughGlassT {
     using Scalar = T;         ///< The precision of its numbers.
     T index = T(1.5);         ///< Index of refraction inside.
     T roughness = T(0.3);     ///< Square root of GGX's alpha; 0 or in [0.01, 1].
-    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit, >= 0.
+    RgbT<T> absorption{T(0)}; ///< Absorption inside, per scene unit; at least 0.
 };
 using RoughGlass = RoughGlassT<float>; ///< RoughGlassT in float.
 
@@ -163,8 +163,8 @@ template <std::floating_point T>
 
 /// Chooses a facet that is visible from `wo` \cite heitz2018, then reflection with
 /// probability F, Fresnel's reflectance of the facet, and otherwise refraction. The
-/// weight is the fraction of light that no other facet blocks, at most 1, times
-/// BsdfSampleT::eta_scale.
+/// weight is the fraction of light that no other facet blocks, at most 1. For refracted
+/// radiance it is multiplied by eta^2, with the eta of \ref rough_glass.
 /// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
 ///         points into the surface, or a refracted direction points out of it.
 /// \cost One sine, one cosine, ten square roots.

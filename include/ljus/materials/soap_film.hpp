@@ -21,9 +21,9 @@ namespace ljus {
 
 /// The function that computes the colours of a film.
 enum class FilmColor : std::uint8_t {
-    table,             ///< Looked up in a table by look_up().
-    three_wavelengths, ///< Computed by film_three().
-    preintegrated      ///< Computed by film_preintegrated().
+    table,             ///< From a table over angle and thickness, by look_up().
+    three_wavelengths, ///< At one wavelength per channel, by film_three().
+    preintegrated      ///< Integrated in closed form, by film_preintegrated().
 };
 
 /// A soap film in air. Its thickness falls with the height z, as in films that hang
@@ -32,8 +32,8 @@ enum class FilmColor : std::uint8_t {
 template <std::floating_point T>
 struct SoapFilmT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
-    T thickness = T(400); ///< d_0, the thickness at height z = 0, in nm; <= 1 mm.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
+    T thickness = T(400); ///< d_0, the thickness at z = 0, in nm; at most 1 mm.
     T index = T(1.33);    ///< Index of the liquid, at least 1.
     T scale = T(0); ///< The h of the formula, in scene units; 0: constant thickness.
     Vec3T<T> level{T(0)}; ///< A point at height z = 0.
@@ -86,7 +86,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 struct FilmPointT {
     using Scalar = T;                           ///< The precision of its numbers.
-    static constexpr bool only_specular = true; ///< See OnlySpecular.
+    static constexpr bool only_specular = true; ///< All lobes are specular.
     const SoapFilmT<T>& film;                   ///< The film.
     T thickness;                                ///< Thickness at the point, in nm.
 };

@@ -21,7 +21,7 @@ namespace ljus {
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
-    static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
+    static constexpr bool scatters_as_base = true; ///< Scattering is that of the base.
     /// True if the texture or the base uses uv.
     static constexpr bool uses_uv = UsesUv<Texture> || UsesUv<Base>;
     Base base{};       ///< The material; a white one keeps the texture's colours.

@@ -40,7 +40,7 @@ template <std::floating_point T>
 }
 
 /// The image of a normal, in general not of unit length. It points to the same side of
-/// the surface, even if the map mirrors. The argument is the inverse of the map.
+/// the surface, even if the map mirrors. `inverse` is the inverse of the map.
 // [transform_normal]
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec3T<T> transform_normal(const AffineT<T>& inverse,

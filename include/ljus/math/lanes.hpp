@@ -91,11 +91,11 @@ template <std::floating_point T>
     return bits;
 }
 
-/// The index of the smallest of eight numbers. Numbers that differ only in their last
-/// three bits count as equal, because the index of the lane replaces these bits. Read
-/// as integers, numbers >= 0 keep their order, so that the smallest integer contains
-/// the index.
-/// \param numbers  The numbers; those in `among` must be >= 0.
+/// The index of the smallest of eight numbers. The function replaces the last three
+/// bits of each number by the index of its lane, and compares the results as integers.
+/// For numbers of at least 0 the order is the same. Numbers that differ only in their
+/// last three bits count as equal.
+/// \param numbers  The numbers; those in `among` must be at least 0.
 /// \param among    Bit mask of the lanes that count, with lane 0 in the lowest bit.
 /// \param bound    Numbers above `bound` and NaN do not count.
 /// \return The index, or 8 if no number counts.

@@ -112,9 +112,9 @@ inline constexpr SobolTable sobol_table = make_sobol_table();
 
 } // namespace detail
 
-/// The random numbers of one path. The first sobol_dimensions numbers are a scrambled
-/// Sobol point, and all further ones are random. The points of all paths of a pass fill
-/// the unit cube evenly.
+/// The random numbers of one path. The first 16 numbers are a scrambled Sobol point,
+/// and all further ones are random. The points of all paths of a pass fill the unit
+/// cube evenly.
 ///
 /// Each number alone is uniform, so that expected values stay the same. The numbers of
 /// one path are independent of each other.
@@ -125,8 +125,8 @@ struct SobolStream {
     RandomStream rest{};         ///< Supplies the numbers after the last dimension.
 };
 
-/// The stream of one path, for the arguments of random_stream(). Each iteration has its
-/// own scrambling. The scrambling also changes after each 2^32 paths.
+/// The stream of one path; the parameters are those of random_stream(). Each iteration
+/// has its own scrambling. The scrambling also changes after each 2^32 paths.
 [[nodiscard]] constexpr SobolStream sobol_stream(std::uint64_t seed, Pass pass,
                                                  std::uint64_t iteration,
                                                  std::uint64_t path) noexcept {

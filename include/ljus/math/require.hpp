@@ -18,7 +18,7 @@
 
 namespace ljus {
 
-/// \defgroup require Checks at the border
+/// \defgroup require Checks of input data
 /// \brief Data are checked once: when a scene, a camera, a map or an image is made.
 /// \{
 
