@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup kd_tree The k-d tree
-/// \brief Section 3.2.2: "whenever a photon hits a surface, it is stored in a k-d
-/// tree".
+/// \brief Section 3.2.2 of the report: "whenever a photon hits a surface, it is stored
+/// in a k-d tree".
 /// \{
 
 /// A balanced k-d tree without pointers \cite bentley1975. Each range of the array is

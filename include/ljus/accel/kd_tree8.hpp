@@ -11,7 +11,7 @@
 namespace ljus {
 
 /// \defgroup kd_tree8 The wide k-d tree
-/// \brief Section 3.2.2: the k-d tree that the photon maps use.
+/// \brief Section 3.2.2 of the report: the k-d tree that the photon maps use.
 /// \{
 
 namespace detail {

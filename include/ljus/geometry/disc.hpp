@@ -19,7 +19,7 @@
 namespace ljus {
 
 /// \defgroup disc Discs
-/// \brief Section 3.1.5: a flat shape, here with a circle as its border.
+/// \brief Section 3.1.5 of the report: a flat shape, here with a circle as its border.
 /// \{
 
 /// The points of a plane within the distance R of a centre.

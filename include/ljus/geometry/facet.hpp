@@ -16,8 +16,8 @@
 namespace ljus {
 
 /// \defgroup form_factor Form factors
-/// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
-/// for each pair of patches". Chapter: \ref ch_radiosity.
+/// \brief Section 2.2 of the report: "a form factor, which describes patch visibility,
+/// is calculated for each pair of patches". Chapter: \ref ch_radiosity.
 ///
 /// Everything is in double: a form factor can be a small difference of larger numbers.
 /// \{

@@ -9,7 +9,7 @@
 namespace ljus {
 
 /// \defgroup moving Moving shapes
-/// \brief Section 2.1, distributed rays: motion blur. Chapter:
+/// \brief Section 2.1 of the report, distributed rays: motion blur. Chapter:
 /// \ref ch_distributed_rays.
 /// \{
 

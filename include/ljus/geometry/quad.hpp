@@ -17,8 +17,9 @@
 namespace ljus {
 
 /// \defgroup quad Quads
-/// \brief Section 3.1.5: the intersection test of triangles, with other bounds for u
-/// and v. One test replaces those of two triangles, with no gap along a diagonal.
+/// \brief Section 3.1.5 of the report: the intersection test of triangles, with other
+/// bounds for u and v. One test replaces those of two triangles, with no gap along a
+/// diagonal.
 /// \{
 
 /// The points \f$ V_1 + uE_1 + vE_2 \f$ with u and v in [0, 1].

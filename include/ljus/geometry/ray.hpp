@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup ray Rays
-/// \brief Section 3.1.1: the ray. Chapter: \ref ch_ray.
+/// \brief Section 3.1.1 of the report: the ray. Chapter: \ref ch_ray.
 /// \{
 
 /// The points O + tD of a line with t from `t_min` to `t_max`.

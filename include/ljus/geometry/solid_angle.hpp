@@ -10,9 +10,9 @@
 namespace ljus {
 
 /// \defgroup solid_angle Shapes as an observer sees them
-/// \brief Section 3.2.3: a shadow ray ends at a sampled point of a lamp. The density of
-/// the point per steradian contains a cosine and the squared distance. The report's
-/// program forgot both.
+/// \brief Section 3.2.3 of the report: a shadow ray ends at a sampled point of a lamp.
+/// The density of the point per steradian contains a cosine and the squared distance.
+/// The report's program forgot both.
 /// \{
 
 /// A sampled point of a shape, with its density.

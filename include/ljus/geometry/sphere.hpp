@@ -20,8 +20,8 @@
 namespace ljus {
 
 /// \defgroup sphere Spheres
-/// \brief Sections 3.1.2 and 3.1.4: the sphere, and the ray-sphere intersection.
-/// Chapter: \ref ch_sphere.
+/// \brief Sections 3.1.2 and 3.1.4 of the report: the sphere, and the ray-sphere
+/// intersection. Chapter: \ref ch_sphere.
 /// \{
 
 /// All points at distance `radius` from `center`.

@@ -12,8 +12,8 @@
 namespace ljus {
 
 /// \defgroup watertight Watertight triangles
-/// \brief Section 3.1.5: the ray-triangle intersection, with a guarantee for shared
-/// edges. Chapter: \ref ch_triangle.
+/// \brief Section 3.1.5 of the report: the ray-triangle intersection, with a guarantee
+/// for shared edges. Chapter: \ref ch_triangle.
 /// \{
 
 /// Selects the watertight test for triangles: `intersect<Watertight>(ray, triangle)`.

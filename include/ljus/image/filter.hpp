@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup filter Pixel filters
-/// \brief Section 3.2: "multiple primary rays are cast per pixel. This means that the
-/// resulting image will be anti-aliased". Chapter: \ref ch_radiance.
+/// \brief Section 3.2 of the report: "multiple primary rays are cast per pixel. This
+/// means that the resulting image will be anti-aliased". Chapter: \ref ch_radiance.
 ///
 /// A pixel is a weighted mean of the radiance around the pixel's centre. The filter is
 /// the weight as a function of the position (x, y). It is a product of a function of x

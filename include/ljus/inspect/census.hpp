@@ -12,7 +12,8 @@
 namespace ljus {
 
 /// \defgroup census The census of a photon map
-/// \brief Numbers of photons, as in the report's figures 5 to 8 (Section 3.2.2.1).
+/// \brief Numbers of photons, as in the report's figures 5 to 8 (Section 3.2.2.1 of the
+/// report).
 /// \{
 
 /// The photons of one kind.

@@ -14,7 +14,7 @@ namespace ljus {
 
 /// \defgroup light_map_file Light maps in files
 /// \brief Saves and loads light maps: "radiosity can easily be precomputed since it is
-/// view independent" (Section 2.2).
+/// view independent" (Section 2.2 of the report).
 ///
 /// A file has the header of \ref binary_file, with the number of patch grids and the
 /// hash of the scene. Then follow the hash of the settings, the grids, and the

@@ -16,7 +16,8 @@
 namespace ljus {
 
 /// \defgroup light Lights
-/// \brief Section 3.2.3: the targets of shadow rays and the sources of photons.
+/// \brief Section 3.2.3 of the report: the targets of shadow rays and the sources of
+/// photons.
 ///
 /// A light is a struct with a member type `Scalar` and free functions. All lights have
 /// these three functions:

@@ -11,8 +11,8 @@
 namespace ljus {
 
 /// \defgroup compensated_glossy Energy-preserving gloss
-/// \brief Section 3.2.4, rough mirrors: facets reflect light to each other until it
-/// leaves the surface.
+/// \brief Section 3.2.4 of the report, rough mirrors: facets reflect light to each
+/// other until it leaves the surface.
 /// \{
 
 /// A rough mirror with a second lobe for the light that meets several facets, see

@@ -13,7 +13,8 @@
 namespace ljus {
 
 /// \defgroup eon Energy-preserving Oren-Nayar
-/// \brief Section 3.2.1: EON, a model that conserves energy \cite eon2025.
+/// \brief Section 3.2.1 of the report: EON, a model that conserves energy \cite
+/// eon2025.
 ///
 /// Fujii's second model loses the light that facets send to each other. EON adds this
 /// light to the BRDF, see \ref multiple_scattering, because the lost fraction has a

@@ -16,7 +16,7 @@
 namespace ljus {
 
 /// \defgroup glass Glass
-/// \brief Section 3.2.5: surfaces that reflect and refract.
+/// \brief Section 3.2.5 of the report: surfaces that reflect and refract.
 /// \erratum{The report's program reflects the same fraction at every angle, multiplies
 /// refracted light by a cosine, reflects nothing inside the glass, and returns up to
 /// 1.6 times the incident light.}
@@ -130,7 +130,8 @@ void check(const GlassT<T>& glass) {
 /// \}
 
 /// \defgroup thin_glass Thin glass
-/// \brief Section 3.2.5, for a window: both boundaries of a pane as one surface.
+/// \brief Section 3.2.5 of the report, for a window: both boundaries of a pane as one
+/// surface.
 ///
 /// A pane is a *thin sheet*, like a soap film: shadow rays and photons pass straight
 /// through it and are tinted, see \ref next_vertex. sample() returns the reflection,

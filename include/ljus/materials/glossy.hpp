@@ -15,7 +15,8 @@
 namespace ljus {
 
 /// \defgroup glossy Gloss
-/// \brief Section 3.2.4, rough mirrors: one microfacet model, from a mirror to satin.
+/// \brief Section 3.2.4 of the report, rough mirrors: one microfacet model, from a
+/// mirror to satin.
 /// \{
 
 namespace detail {

@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup lambertian Lambert
-/// \brief Section 3.2.1: the Lambertian BRDF.
+/// \brief Section 3.2.1 of the report: the Lambertian BRDF.
 /// \erratum{In the report's program the "BRDF" is cos(theta) times the colour. The
 /// factor 1/pi is missing, and the cosine is counted twice, because the integral of
 /// reflected light contains it.}

@@ -17,7 +17,7 @@
 namespace ljus {
 
 /// \defgroup bsdf Materials
-/// \brief Section 3.2.1: how a surface scatters light.
+/// \brief Section 3.2.1 of the report: how a surface scatters light.
 ///
 /// A material is a struct with public members and a type `Scalar`. Five free functions
 /// belong to it. Their directions are given in a local frame whose z axis is the
@@ -382,8 +382,8 @@ template <Material M>
 /// \}
 
 /// \defgroup cosine_lobe Sampling matt surfaces
-/// \brief Section 3.2.4: cosine-weighted sampling, which suits every BRDF that is close
-/// to a constant.
+/// \brief Section 3.2.4 of the report: cosine-weighted sampling, which suits every BRDF
+/// that is close to a constant.
 /// \{
 
 /// The density of sample_cosine_lobe().

@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup mirror Mirrors
-/// \brief Section 3.2.4: perfectly reflective surfaces.
+/// \brief Section 3.2.4 of the report: perfectly reflective surfaces.
 /// \{
 
 /// A two-sided mirror with the same reflectance at every angle.
@@ -50,7 +50,7 @@ void check(const MirrorT<T>& mirror) {
 /// \}
 
 /// \defgroup metal Polished metal
-/// \brief Section 3.2.4: a mirror with the colour of a metal.
+/// \brief Section 3.2.4 of the report: a mirror with the colour of a metal.
 /// \{
 
 /// A smooth two-sided surface of metal. Its colour fades to white at grazing angles.

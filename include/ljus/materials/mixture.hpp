@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup mixture The report's sliders
-/// \brief Section 3.2.1: all properties of a material of the report.
+/// \brief Section 3.2.1 of the report: all properties of its materials.
 ///
 /// Incident light is divided into fractions:
 ///

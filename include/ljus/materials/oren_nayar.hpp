@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup oren_nayar Oren-Nayar
-/// \brief Section 3.2.1: the Oren-Nayar BRDF, \cite orennayar1994.
+/// \brief Section 3.2.1 of the report: the Oren-Nayar BRDF, \cite orennayar1994.
 /// \erratum{The report's program uses the cosine of the angle between wi and wo, where
 /// the model has the cosine of the angle between their azimuths, and clamps the result
 /// to 1. Figure 14 shows roughness 1, 10 and 100. The unit is radians, and the

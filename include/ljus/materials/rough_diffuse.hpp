@@ -9,7 +9,7 @@
 namespace ljus {
 
 /// \defgroup rough_diffuse Models of rough matt surfaces
-/// \brief Section 3.2.1: four formulas that are called Oren-Nayar.
+/// \brief Section 3.2.1 of the report: four formulas that are called Oren-Nayar.
 /// \{
 
 /// A formula that is called Oren-Nayar. Each comment gives the largest fraction of the

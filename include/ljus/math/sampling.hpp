@@ -13,8 +13,8 @@
 namespace ljus {
 
 /// \defgroup sampling Sampling
-/// \brief Section 3.2.4: sampling functions. Each takes a point u of [0,1)^2 and stands
-/// beside its pdf.
+/// \brief Section 3.2.4 of the report: sampling functions. Each takes a point u of
+/// [0,1)^2 and stands beside its pdf.
 ///
 /// Directions are unit vectors around +z.
 /// \{
@@ -166,8 +166,8 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup naive_hemisphere Naive directions
-/// \brief Section 3.2.4: "two uniform random generators for the azimuth and inclination
-/// angles".
+/// \brief Section 3.2.4 of the report: "two uniform random generators for the azimuth
+/// and inclination angles".
 ///
 /// A ring of directions near the pole is shorter than a ring near the horizon, but gets
 /// as many samples. The samples therefore crowd around the pole. An estimate must

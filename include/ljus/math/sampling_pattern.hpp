@@ -12,7 +12,8 @@
 namespace ljus {
 
 /// \defgroup sampling_pattern Sampling patterns
-/// \brief Section 3.2: "stratified grid sampling", and later patterns. Chapter:
+/// \brief Section 3.2 of the report: "stratified grid sampling", and later patterns.
+/// Chapter:
 /// \ref ch_first_picture.
 /// \{
 

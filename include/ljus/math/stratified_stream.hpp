@@ -10,8 +10,9 @@
 namespace ljus {
 
 /// \defgroup stratified_stream Stratified streams
-/// \brief Section 2.1, distributed rays: the rays of a pixel are spread evenly over the
-/// pixel, the lens, the time, each light and each lobe \cite cook1984. Chapter:
+/// \brief Section 2.1 of the report, distributed rays: the rays of a pixel are spread
+/// evenly over the pixel, the lens, the time, each light and each lobe \cite cook1984.
+/// Chapter:
 /// \ref ch_distributed_rays.
 /// \{
 

@@ -13,7 +13,8 @@
 namespace ljus {
 
 /// \defgroup fresnel Fresnel's equations
-/// \brief Section 3.2.5: the equations that Schlick's formula approximates.
+/// \brief Section 3.2.5 of the report: the equations that Schlick's formula
+/// approximates.
 /// \{
 
 /// The formula for the reflectance of a dielectric.

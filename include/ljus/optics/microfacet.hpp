@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup microfacet Microfacets
-/// \brief Section 3.2.4: a rough surface made of small mirrors.
+/// \brief Section 3.2.4 of the report: a rough surface made of small mirrors.
 ///
 /// The normals of the facets are distributed as on an ellipsoid flattened by the factor
 /// alpha, the roughness: GGX \cite walter2007. All directions are unit vectors in the

@@ -8,7 +8,7 @@
 namespace ljus {
 
 /// \defgroup reflection Mirror reflection
-/// \brief Section 3.2.4: the reflection of a ray by a perfect mirror.
+/// \brief Section 3.2.4 of the report: the reflection of a ray by a perfect mirror.
 /// \{
 
 /// The direction of a ray after a mirror reflection.

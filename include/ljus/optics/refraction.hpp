@@ -12,7 +12,8 @@
 namespace ljus {
 
 /// \defgroup refraction Refraction
-/// \brief Section 3.2.5: the direction of a ray after a boundary between two media.
+/// \brief Section 3.2.5 of the report: the direction of a ray after a boundary between
+/// two media.
 ///
 /// Let \f$ \eta = n_1/n_2 \f$, where the ray leaves the medium of index n_1 and enters
 /// that of index n_2. Snell's law multiplies P, the component of the direction D along

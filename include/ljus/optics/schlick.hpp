@@ -6,7 +6,8 @@
 namespace ljus {
 
 /// \defgroup schlick Schlick's approximation
-/// \brief Section 3.2.5: the reflectance of a boundary, by multiplications only.
+/// \brief Section 3.2.5 of the report: the reflectance of a boundary, by
+/// multiplications only.
 ///
 /// \erratum{The cosine must be that in the medium of *lower* index. With the cosine of
 ///          the incoming light, as printed, glass reflects 0.04 of the light from

@@ -10,7 +10,7 @@
 namespace ljus {
 
 /// \defgroup continue_path Continuing a path
-/// \brief Section 3.2.4: reflected, refracted and indirect rays.
+/// \brief Section 3.2.4 of the report: reflected, refracted and indirect rays.
 ///
 /// A surface may have two normals, for example a triangle with interpolated normals
 /// \cite veach1997. The geometric normal decides on which side of the surface a

@@ -9,7 +9,7 @@
 namespace ljus {
 
 /// \defgroup direct_light Direct light
-/// \brief Section 3.2.3: a shadow ray toward each light source.
+/// \brief Section 3.2.3 of the report: a shadow ray toward each light source.
 /// \{
 
 /// What is known of the visibility of a light from a surface before a shadow ray is

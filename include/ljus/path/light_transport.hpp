@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup light_transport Light transport
-/// \brief Section 2, Eq. 1: the rendering equation, and renderers that leave out some
-/// light paths. Chapter: \ref ch_light_transport.
+/// \brief Section 2 of the report, Eq. 1: the rendering equation, and renderers that
+/// leave out some light paths. Chapter: \ref ch_light_transport.
 /// \{
 
 /// The factor g of Eq. 1 for two points on surfaces: visibility over squared distance.

@@ -24,7 +24,7 @@
 namespace ljus {
 
 /// \defgroup vertex Vertices
-/// \brief Section 3.2: the hit of a ray, with the data for shading.
+/// \brief Section 3.2 of the report: the hit of a ray, with the data for shading.
 /// \{
 
 /// A vertex of a path, for all renderers and the photon pass.

@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup path_state Path states
-/// \brief Section 3.2.4: the arguments of the report's recursive trace.
+/// \brief Section 3.2.4 of the report: the arguments of the report's recursive trace.
 /// \{
 
 /// The state of a path from the camera or from a light. next_vertex() and

@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup budget A budget for caustics
-/// \brief Section 5: "shooting fewer caustics photons towards objects with higher
-/// refractivity". Chapter: \ref ch_caustic_budget.
+/// \brief Section 5 of the report: "shooting fewer caustics photons towards objects
+/// with higher refractivity". Chapter: \ref ch_caustic_budget.
 /// \{
 
 /// The fractions of photons that minimise a sum of variances. If n_k photons give

@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup kernel Kernels
-/// \brief Section 3.2.6: how the flux of a photon is spread over a disc.
+/// \brief Section 3.2.6 of the report: how the flux of a photon is spread over a disc.
 ///
 /// A kernel has one function, kernel_weight(kernel, x). It returns the weight of a
 /// photon, where x is the photon's squared distance over the squared radius of the

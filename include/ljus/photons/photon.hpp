@@ -13,7 +13,7 @@
 namespace ljus {
 
 /// \defgroup photon Photons
-/// \brief Section 2.3: the photons of a photon map.
+/// \brief Section 2.3 of the report: the photons of a photon map.
 /// \{
 
 /// The kind of a photon, by its path in Heckbert's notation \cite heckbert1990.

@@ -12,7 +12,7 @@
 namespace ljus {
 
 /// \defgroup photon_map Photon maps
-/// \brief Sections 3.2.2 and 3.2.6: the general map and the caustics map.
+/// \brief Sections 3.2.2 and 3.2.6 of the report: the general map and the caustics map.
 /// \{
 
 /// Photons in a k-d tree: a general map or a caustics map.

@@ -17,7 +17,8 @@
 namespace ljus {
 
 /// \defgroup emission Photon emission
-/// \brief Section 3.2.2: photons are "shot from all the light sources into the scene".
+/// \brief Section 3.2.2 of the report: photons are "shot from all the light sources
+/// into the scene".
 /// \{
 
 namespace detail {
@@ -139,7 +140,8 @@ emit(const W& world, const LightChoice& choice, Stream& stream,
 /// \}
 
 /// \defgroup tracing Photon tracing
-/// \brief Section 3.2.2: photons bounce "until Russian roulette decides otherwise".
+/// \brief Section 3.2.2 of the report: photons bounce "until Russian roulette decides
+/// otherwise".
 /// \{
 
 /// Russian roulette for a photon at a surface \cite arvo1990. The probability of

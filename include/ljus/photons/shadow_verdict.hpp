@@ -13,8 +13,8 @@
 namespace ljus {
 
 /// \defgroup shadow_photons Shadow photons
-/// \brief Sections 3.2.2.1 and 3.2.3: which shadow rays and indirect rays to skip.
-/// Chapter: \ref ch_shadow_photons.
+/// \brief Sections 3.2.2.1 and 3.2.3 of the report: which shadow rays and indirect rays
+/// to skip. Chapter: \ref ch_shadow_photons.
 /// \{
 
 /// A rule by which the photons around a point make a shadow ray unnecessary. Direct

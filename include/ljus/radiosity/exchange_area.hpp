@@ -12,8 +12,8 @@
 namespace ljus {
 
 /// \defgroup exchange_area Exchange areas
-/// \brief Section 2.2: the exchange area of two patches is the area of one patch times
-/// its form factor to the other. The exchange area is symmetric.
+/// \brief Section 2.2 of the report: the exchange area of two patches is the area of
+/// one patch times its form factor to the other. The exchange area is symmetric.
 /// \{
 
 namespace detail {

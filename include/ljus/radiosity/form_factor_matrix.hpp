@@ -11,8 +11,8 @@
 namespace ljus {
 
 /// \defgroup form_factors The matrix of form factors
-/// \brief Section 2.2: "a form factor, which describes patch visibility, is calculated
-/// for each pair of patches". Chapter: \ref ch_radiosity.
+/// \brief Section 2.2 of the report: "a form factor, which describes patch visibility,
+/// is calculated for each pair of patches". Chapter: \ref ch_radiosity.
 /// \{
 
 /// The form factors F_ij of a scene, stored as exchange areas

@@ -17,8 +17,8 @@
 namespace ljus {
 
 /// \defgroup light_map Light maps
-/// \brief Section 2.2: "the precomputed radiosity can then be reused as light maps in
-/// real-time applications such as games". Chapter: \ref ch_radiosity.
+/// \brief Section 2.2 of the report: "the precomputed radiosity can then be reused as
+/// light maps in real-time applications such as games". Chapter: \ref ch_radiosity.
 /// \{
 
 /// Identifies the scene and the settings of a light map; see light_map_key(). A saved

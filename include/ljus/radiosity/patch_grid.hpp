@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup patch_grid Grids of patches
-/// \brief Section 2.2: where a patch lies on its shape, and in which patch a point
-/// lies.
+/// \brief Section 2.2 of the report: where a patch lies on its shape, and in which
+/// patch a point lies.
 ///
 /// A point of a shape has coordinates in the unit square: u and v of a hit on a flat
 /// shape, height and azimuth on a ball. Equal squares then have equal areas.

@@ -14,7 +14,8 @@
 namespace ljus {
 
 /// \defgroup patch_rays Rays between patches
-/// \brief Section 2.2: "a form factor, which describes patch visibility". Chapter:
+/// \brief Section 2.2 of the report: "a form factor, which describes patch visibility".
+/// Chapter:
 /// \ref ch_radiosity.
 /// \{
 

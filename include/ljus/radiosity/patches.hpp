@@ -13,8 +13,8 @@
 namespace ljus {
 
 /// \defgroup patches Patches
-/// \brief Section 2.2: "radiosity works by subdividing the scene into smaller surface
-/// areas called patches". Chapter: \ref ch_radiosity.
+/// \brief Section 2.2 of the report: "radiosity works by subdividing the scene into
+/// smaller surface areas called patches". Chapter: \ref ch_radiosity.
 /// \{
 
 /// A patch: a cell of one side of an object, with constant radiosity.

@@ -10,8 +10,8 @@
 namespace ljus {
 
 /// \defgroup radiosity_solve The equations of radiosity
-/// \brief Section 2.2: "the radiosity of each patch is then given by solving the
-/// equation system". Chapter: \ref ch_radiosity.
+/// \brief Section 2.2 of the report: "the radiosity of each patch is then given by
+/// solving the equation system". Chapter: \ref ch_radiosity.
 ///
 /// \f[ B_i = E_i + \rho_i \sum_j F_{ij} B_j \f]
 ///

@@ -12,8 +12,8 @@ namespace ljus {
 
 /// \defgroup distributed_rays Distributed rays
 /// \brief Soft shadows and blurry reflections "by averaging multiple camera rays per
-/// pixel" (Section 2.1), after Cook, Porter and Carpenter \cite cook1984. Chapter: \ref
-/// ch_distributed_rays.
+/// pixel" (Section 2.1 of the report), after Cook, Porter and Carpenter \cite cook1984.
+/// Chapter: \ref ch_distributed_rays.
 ///
 /// In Heckbert's notation, with G for glossy, this renderer finds the paths L D? (S|G)*
 /// E: the paths of Whitted's tree, with each ray blurred. No matt surface lights

@@ -11,8 +11,8 @@
 namespace ljus {
 
 /// \defgroup path_tracing Path tracing
-/// \brief Solves the rendering equation (Section 2, Eq. 1) by random paths, after
-/// Kajiya \cite kajiya1986.
+/// \brief Solves the rendering equation (Section 2 of the report, Eq. 1) by random
+/// paths, after Kajiya \cite kajiya1986.
 /// \{
 
 /// How paths are traced.

@@ -21,7 +21,7 @@
 namespace ljus {
 
 /// \defgroup photon_mapping Photon mapping
-/// \brief The two-pass renderer of Section 3. Chapter: \ref ch_two_pass.
+/// \brief The two-pass renderer of Section 3 of the report. Chapter: \ref ch_two_pass.
 ///
 /// Every light path has one owner:
 ///

@@ -18,7 +18,7 @@ namespace ljus {
 
 /// \defgroup render Rendering
 /// \brief The loop over the pixels of a picture: "in order to render an image, primary
-/// rays are cast into the scene" (Section 3.2).
+/// rays are cast into the scene" (Section 3.2 of the report).
 /// \{
 
 /// Size and sampling of a picture.

@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup camera Cameras
-/// \brief Section 3.2: primary rays.
+/// \brief Section 3.2 of the report: primary rays.
 /// \{
 
 /// A pinhole camera; look_at() makes one.

@@ -10,7 +10,8 @@
 namespace ljus {
 
 /// \defgroup lens_camera A camera with a lens
-/// \brief Section 2.1, distributed rays: depth of field \cite cook1984. Chapter:
+/// \brief Section 2.1 of the report, distributed rays: depth of field \cite cook1984.
+/// Chapter:
 /// \ref ch_distributed_rays.
 /// \{
 

@@ -80,9 +80,9 @@ template <std::floating_point T>
 /// \}
 
 /// \defgroup world Worlds
-/// \brief Section 3.1: "determine the first object intersected by a ray"; the report's
-/// discussion: "an octree, axis-aligned bounding boxes, or a binary space partition".
-/// Chapter: \ref ch_bvh.
+/// \brief Section 3.1 of the report: "determine the first object intersected by a ray";
+/// the report's discussion: "an octree, axis-aligned bounding boxes, or a binary space
+/// partition". Chapter: \ref ch_bvh.
 /// \{
 
 namespace detail {

@@ -18,8 +18,8 @@
 namespace ljus {
 
 /// \defgroup isosurface Isosurfaces
-/// \brief Section 2.1: an isosurface is where a field is 0. The field is positive
-/// inside and negative outside. Chapter: \ref ch_metaballs.
+/// \brief Section 2.1 of the report: an isosurface is where a field is 0. The field is
+/// positive inside and negative outside. Chapter: \ref ch_metaballs.
 /// \{
 
 namespace detail {

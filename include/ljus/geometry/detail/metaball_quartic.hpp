@@ -21,7 +21,8 @@
 namespace ljus {
 
 /// \defgroup metaballs Metaballs
-/// \brief Section 2.1, footnote 2: "organic-looking n-dimensional objects". Chapter:
+/// \brief Section 2.1 of the report, footnote 2: "organic-looking n-dimensional
+/// objects". Chapter:
 /// \ref ch_metaballs.
 /// \{
 
