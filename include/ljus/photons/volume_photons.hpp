@@ -58,7 +58,7 @@ struct BeamEstimateSettings {
     /// 0, each photon's radius is the distance to its n-th nearest neighbour, where n
     /// is `nearest`.
     float radius = 0;
-    std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
+    std::size_t nearest = 10; ///< Which neighbour sets the radius, 1 to 511.
     Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.
 };
 
