@@ -73,7 +73,8 @@ struct AimT {
     ConeT<T> cone{}; ///< The cone into which the point aims.
     /// Whether the point aims at the object's area instead of the cone.
     bool at_area = false;
-    /// The weight of the choice: approximately the solid angle divided by 2 pi.
+    /// Weight of the object when a target is chosen: approximately the solid angle that
+    /// the object covers, divided by 2 pi.
     T size = T(0);
 };
 

@@ -48,19 +48,19 @@ namespace ljus {
 }
 // [share_out]
 
-/// The results of a pilot pass for one object. Each *scatter* is the a_k of share_out()
-/// for one measure of the error; see pilot_caustics().
+/// The results of a pilot pass for one object. The last three members are values of a_k
+/// for share_out(), for three measures of the error; see pilot_caustics().
 struct CausticPilot {
     ObjectId object{};      ///< The object.
     std::size_t stored = 0; ///< Number of photons that the pilot stored.
     double flux = 0;        ///< Luminance of the flux of the object's caustic, in W.
     double area = 0;        ///< Area of the caustic: flux divided by mean irradiance.
-    double absolute = 0;    ///< Scatter of the irradiance, in W.
-    /// Scatter of the irradiance divided by the mean irradiance of the caustic, in
-    /// squared scene units.
-    double relative = 0;
-    /// Scatter of the irradiance divided by the irradiance of all light, in squared
+    double absolute = 0;    ///< a_k for the error of the irradiance, in W.
+    /// a_k for the error relative to the mean irradiance of the caustic, in squared
     /// scene units.
+    double relative = 0;
+    /// a_k for the error relative to the irradiance of all light, in squared scene
+    /// units.
     double visible = 0;
 };
 
@@ -118,9 +118,11 @@ struct PilotLightT {
     const PhotonMapT<T>& rest;     ///< Photons of all other light.
     T radius = T(0);               ///< Search radius in `caustics`.
     T wide = T(0);                 ///< Search radius in `rest`.
-    double dark = 0;               ///< A tenth of the mean irradiance, in W/m^2.
+    /// Added to the irradiance of all light, to limit the weight of dark surfaces; in
+    /// W/m^2.
+    double dark = 0;
 
-    /// Sums the flux and the scatters of an object.
+    /// Computes the results for an object.
     /// \param photons  The photons that its pilot stored.
     /// \param paths    The number of photons that its pilot emitted.
     [[nodiscard]] CausticPilot judge(ObjectId object,

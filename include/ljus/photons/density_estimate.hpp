@@ -127,8 +127,8 @@ struct EstimatePlaceT {
     std::uint32_t item = 0;   ///< Identifies the request to the caller.
 };
 
-/// Makes a request for the estimate at a vertex, for the direction vertex.wo. Writing
-/// the request in place avoids a store-forwarding stall.
+/// Makes a request for the estimate at a vertex, for the direction vertex.wo. The
+/// request is written in place, because copying it is slow.
 template <std::floating_point T>
 void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
                const LambertianT<T>& material, const RgbT<T>& throughput,

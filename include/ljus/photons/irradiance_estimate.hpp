@@ -117,7 +117,7 @@ struct NearestPhotons {
 
 /// Finds the k nearest photons for an estimate. The k-th photon sets the radius and is
 /// left out. If there are fewer than k photons within `radius`, all of them are
-/// returned. Photons that are turned_away() never count.
+/// returned. Photons for which turned_away() is true never count.
 /// \param room    Space for k elements, at most max_nearest.
 /// \param wanted  wanted(index, record) returns whether the photon counts.
 template <std::floating_point T, typename Wanted>
@@ -136,7 +136,7 @@ nearest_photons(const PhotonMapT<T>& map, const SurfacePointT<T>& point, T radiu
             full ? room[0].distance2 : double(radius) * double(radius)};
 }
 
-/// Sums over the k nearest photons, one by one, where k is gather.nearest.
+/// Sums the weighted flux of the k nearest photons, one by one; k is gather.nearest.
 /// \param gathered  A counter. The number of summed photons is added to it.
 /// \param factor    Called with a PhotonRecordT; returns a factor of the flux.
 /// \return The sum; 0 if all k photons lie at one point, where the disc has no area.

@@ -19,8 +19,8 @@
 namespace ljus {
 
 /// \defgroup irradiance_points Precomputed irradiance
-/// \brief Christensen's acceleration of final gathering: a gather ray looks up one
-/// value instead of a density estimate \cite christensen1999. Chapter:
+/// \brief Christensen's acceleration of final gathering: a precomputed value replaces
+/// the density estimate where a gather ray ends \cite christensen1999. Chapter:
 /// \ref ch_final_gathering.
 /// \{
 

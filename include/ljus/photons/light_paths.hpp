@@ -17,14 +17,14 @@ namespace ljus {
 /// \addtogroup subpath_weights
 /// \{
 
-/// Settings of the light paths, and of their joints with paths from the eye.
+/// How light paths are traced and joined with paths from the eye.
 struct LightPathSettings {
     long long paths = 100000; ///< Number of light paths, at least 1.
     float radius = 0.02f;     ///< Radius of merging, in scene units; 0 for no merging.
     /// Largest number of surfaces between a light and the eye, at least 1.
     int max_depth = 100;
     std::uint64_t seed = 1;      ///< Seed of the random streams.
-    std::uint64_t iteration = 0; ///< Index of the repetition.
+    std::uint64_t iteration = 0; ///< Each value gives other random numbers.
     int threads = 0;             ///< Number of threads, as in ParallelSettings.
 
     /// The term \f$\eta\f$ of SubpathWeights: the number of paths times the area of a

@@ -36,7 +36,7 @@ enum class CausticBudget : std::uint8_t {
     brightness ///< Minimises the squared error relative to the irradiance of all light.
 };
 
-/// The random numbers of photons.
+/// The kinds of random numbers that photons can use.
 enum class PhotonSampling : std::uint8_t {
     random, ///< Pseudo-random numbers; see \ref random.
     sobol   ///< Sobol points in the first dimensions; see \ref low_discrepancy.
@@ -46,7 +46,7 @@ enum class PhotonSampling : std::uint8_t {
 struct PhotonPassSettings {
     long long photons = 100000;  ///< Number of paths to emit.
     std::uint64_t seed = 1;      ///< Seed of the random streams.
-    std::uint64_t iteration = 0; ///< Index of the repetition.
+    std::uint64_t iteration = 0; ///< Each value gives other random numbers.
     int max_bounces = 1000;      ///< Largest number of surfaces per photon.
     bool shadow_photons = true;  ///< Whether the general map stores shadow photons.
     /// The kinds of photons to store besides shadow photons.
@@ -54,7 +54,7 @@ struct PhotonPassSettings {
     /// Whether every light emits the same number of photons, instead of a number in
     /// proportion to its power. This is useful for shadow photons.
     bool equal_lights = false;
-    PhotonSampling numbers = PhotonSampling::random; ///< The random numbers.
+    PhotonSampling numbers = PhotonSampling::random; ///< Kind of random numbers.
     /// Whether objects with a nearly_specular() material count as mirrors. The light
     /// that they send to a surface with a diffuse lobe then belongs to the caustics
     /// map. A PhotonMapper sets this member.
@@ -66,7 +66,7 @@ struct PhotonPassSettings {
     /// the probabilities are in proportion to power. See pilot_lights().
     std::vector<double> light_shares = {};
     double max_memory = 4e9; ///< Limit in bytes for the photons and their map.
-    /// A pass that has stored no photon after this number of paths ends.
+    /// The pass ends if it has stored no photon after this number of paths.
     long long give_up = 1LL << 20;
     int threads = 0; ///< Number of threads; 0: all processors.
     /// Called with (done, total); returns false to stop.

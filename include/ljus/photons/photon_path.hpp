@@ -334,15 +334,15 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 template <std::floating_point T>
 struct SentPhotonT {
     EmittedPhotonT<T> photon{}; ///< The photon as it leaves its light.
-    /// If set, the photon is dropped if it hits another object first.
+    /// The target, if any. A photon that hits another object first is dropped.
     std::optional<ObjectId> target{};
 };
 
 /// Traces a photon and stores it at each surface with a non-specular lobe.
 ///
-/// If PhotonPassSettings::gloss_as_mirrors is true, a glossy surface counts as a
-/// mirror. After such a surface, the photon is stored only at surfaces with a diffuse
-/// lobe.
+/// If PhotonPassSettings::gloss_as_mirrors is true, a nearly_specular() surface counts
+/// as a mirror. A photon that has met such a surface, and no other surfaces but mirrors
+/// and glass, is stored only at surfaces with a diffuse lobe.
 /// \param sent    The photon. Its flux has been divided by the number of paths.
 /// \param stream  Four numbers are drawn per bounce; more in fog, at thin surfaces and
 ///                where a wavelength is chosen.

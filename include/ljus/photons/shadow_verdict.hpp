@@ -81,8 +81,8 @@ struct PhotonCounts {
     std::uint32_t shadow = 0;
 };
 
-/// The rule of the report ignores the photons of one kind if there are more than this
-/// number of times as many of the other kind.
+/// The rule of the report ignores the photons of one kind if the other kind is more
+/// frequent by more than this factor.
 inline constexpr std::uint64_t report_ratio = 1200;
 
 /// The verdict of the photons around a point, by a rule other than SkipRule::none.

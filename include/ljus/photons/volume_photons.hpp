@@ -48,7 +48,7 @@ struct VolumePhotonT {
     Vec3T<T> direction{T(0)}; ///< Unit direction of travel before the scattering.
     RgbT<T> flux{T(0)};       ///< Scattered flux, in W.
     T radius = T(1); ///< Radius of the ball that holds the flux, in scene units.
-    std::uint32_t medium = 0; ///< Number of the medium; see visit_fog().
+    std::uint32_t medium = 0; ///< Index of the medium; see visit_fog().
 };
 using VolumePhoton = VolumePhotonT<float>; ///< VolumePhotonT in float: 44 bytes.
 
@@ -58,7 +58,7 @@ struct BeamEstimateSettings {
     /// 0, each photon's radius is the distance to its n-th nearest neighbour, where n
     /// is `nearest`.
     float radius = 0;
-    std::size_t nearest = 10; ///< The neighbour that sets the radius, 1 to 511.
+    std::size_t nearest = 10; ///< Which neighbour sets the radius, 1 to 511.
     Kernel kernel = Kernel::epanechnikov; ///< Weight by the distance from the ray.
 };
 

@@ -86,7 +86,7 @@ struct AdaptiveT {
     ImageT<T> rays{};     ///< Rays of each pixel, including discarded ones.
     double estimate = 0;  ///< An estimate of the relMSE that noise causes.
     bool reached = false; ///< Whether the estimate is at most the target.
-    Counts counts{};      ///< Cost of the picture.
+    Counts counts{};      ///< Numbers of rays and photons.
     bool complete = true; ///< False if the progress callback stopped the work.
 };
 
@@ -340,7 +340,8 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
 }
 
 /// Traces the batches of a block in this round.
-/// \param sums  The sums to which `samples` adds the samples.
+/// \param samples  Receives the samples of the block.
+/// \param sums     The sums of the pixels, to which `samples` adds each sample.
 template <typename R, CameraLike C, std::floating_point T>
 void trace_block(SampleSums<R, T>& samples, const RowSums& sums, const R& renderer,
                  const C& camera, const RenderSettings& picture,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/first_hit.hpp
-/// \brief Pictures of the normals, albedos or distances that primary rays meet.
+/// \brief Pictures of normals, albedos or distances at the hits of primary rays.
 
 #include "ljus/path/continue_path.hpp"
 
@@ -26,7 +26,8 @@ template <typename W>
 class FirstHitRenderer {
 public:
     using Stream = RandomStream; ///< The random stream that render() passes.
-    static constexpr bool carries_fog = true; ///< Fog is ignored.
+    /// Scenes with fog are accepted; the fog is ignored.
+    static constexpr bool carries_fog = true;
 
     /// \param world  Must outlive the renderer.
     /// \param shown  The quantity that a picture shows.

@@ -24,7 +24,7 @@ struct IrradianceCacheT {
     KdTree8T<T> tree;                  ///< The positions of the points.
     std::vector<GatheredT<T>> records; ///< The light gathered at the points, in the
                                        ///< tree's order.
-    Counts counts{};                   ///< Cost of the gathering.
+    Counts counts{};                   ///< Numbers of rays and photons.
     bool complete = true; ///< False if the progress callback stopped the gathering.
 
     /// Whether the cache has no points.
@@ -110,7 +110,7 @@ namespace detail {
 template <std::floating_point T>
 struct GatheredRowT {
     std::vector<Vec3T<T>> positions;
-    std::vector<GatheredT<T>> records; ///< In the order of the positions.
+    std::vector<GatheredT<T>> records; ///< The light gathered at the positions.
     Counts counts{};
 };
 
@@ -150,7 +150,7 @@ void gather_along(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
     }
 }
 
-/// Sets the `spacing` of each point of a cache, where k is settings.nearest.
+/// Sets GatheredT::spacing of each point of a cache.
 template <std::floating_point T>
 void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
                      int threads) {

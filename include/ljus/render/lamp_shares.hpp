@@ -71,7 +71,8 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 /// \param height    Height of the picture, in pixels.
 /// \return The settings with `light_shares` for each pass with at least 800 photons
 ///         per lamp; unchanged with fewer than two lamps.
-/// \cost A twentieth of the photons, and 1024 camera paths.
+/// \cost A twentieth of the photons, or up to a quarter with many lamps; and 1024
+///       camera paths.
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings
 share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,

@@ -146,7 +146,7 @@ struct LayeredPixel {
     RgbT<double> picture{0};
     Vec3T<double> normal{0};
     RgbT<double> albedo{0};
-    std::vector<RgbT<double>> light{}; ///< One per class of paths.
+    std::vector<RgbT<double>> light{}; ///< The light of each class of paths.
 
     void divide(double rays) {
         picture /= rays;

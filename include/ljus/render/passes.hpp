@@ -116,7 +116,7 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The settings for skipping rays, without what needs a pass that does not run.
+/// The settings for skipping rays. Rules that need a pass that does not run are off.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;

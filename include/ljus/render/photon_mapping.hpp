@@ -25,12 +25,12 @@ namespace ljus {
 ///
 /// Every light path has one owner:
 ///
-/// | path            | owner                                                       |
-/// |-----------------|-------------------------------------------------------------|
-/// | E S* L          | emission, while no diffuse surface has been met             |
-/// | E ... D L       | shadow rays, or the verdict of shadow photons               |
-/// | E ... D S+ L    | the caustics map, at every diffuse surface                  |
-/// | E ... D ... D.. | indirect rays, or a lookup as IndirectLight describes       |
+/// | path                | owner                                                   |
+/// |---------------------|---------------------------------------------------------|
+/// | E S* L              | emission, while no diffuse surface has been met         |
+/// | E ... D L           | shadow rays, or the verdict of shadow photons           |
+/// | E ... D S+ L        | the caustics map, at every diffuse surface              |
+/// | E ... D ... D ... L | indirect rays, or a lookup as IndirectLight describes   |
 ///
 /// Scattering in fog is a D as well, but camera paths are not scattered by fog. Fog
 /// scatters light towards the eye along each ray of a camera path. Of this light,
@@ -528,7 +528,7 @@ template <typename Mapper, std::floating_point T, Material M>
 /// \param direct    How shadow rays find direct light.
 /// \param context   The random stream of the path. Counts rays and photons. Its batch
 ///                  may delay the query of the caustics map.
-/// \param add       The sum of the path.
+/// \param add       The RadianceSum to which the light is added.
 /// \report{Sections 3.2.3 and 3.2.6}
 // [light_at]
 template <AnyWorld W, typename... X, std::floating_point T, Material M,

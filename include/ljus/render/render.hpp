@@ -27,7 +27,7 @@ struct RenderSettings {
     int height = 400;       ///< Height in pixels, at least 1.
     int samples = 64;       ///< Exact number of primary rays per pixel, at least 1.
     std::uint64_t seed = 1; ///< Seed of the random streams.
-    int threads = 0;        ///< Number of threads; 0: all.
+    int threads = 0;        ///< Number of threads; 0: all processors.
     Progress progress = no_progress; ///< Called with (done, total); returns false to
                                      ///< stop.
     Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.
@@ -53,7 +53,7 @@ void require_fog_carried([[maybe_unused]] const R& renderer) {
 template <std::floating_point T>
 struct RenderedT {
     ImageT<T> image{};    ///< The mean radiance of each pixel.
-    Counts counts{};      ///< Cost of the picture.
+    Counts counts{};      ///< Numbers of rays and photons.
     bool complete = true; ///< False if the progress callback stopped the work.
 };
 
@@ -62,7 +62,7 @@ struct RenderedT {
 /// \param seed     The user's seed.
 /// \param pixel    The pixel's number within the picture.
 /// \param ray      The ray's number within the pixel.
-/// \param pattern  make_pattern() for the rays of a pixel.
+/// \param pattern  The result of make_pattern() for the rays of a pixel.
 constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t pixel,
                          int ray, const Pattern& pattern) noexcept {
     stream = random_stream(seed, Pass::camera, 0,
@@ -98,8 +98,8 @@ struct PixelRay {
 /// The position of one ray in the picture, and its filter weight.
 /// \param rays    The rays of the picture.
 /// \param at      Which ray.
-/// \param stream  Set to the random numbers of that ray, of which the position takes
-///                the first.
+/// \param stream  Set to the random numbers of that ray. Two of them are drawn, for the
+///                position.
 /// \return The position in pixels from the upper left corner, and its weight.
 template <std::floating_point T, StreamLike Stream>
 [[nodiscard]] FilterSampleT<T> sample_pixel(const PictureRays& rays, const PixelRay& at,
@@ -158,8 +158,8 @@ struct PixelRegion {
     int height = 1; ///< Height in pixels, at least 1.
 };
 
-/// Renders a part of a picture by several threads: the same as in the picture of
-/// render(), byte for byte.
+/// Renders a part of a picture by several threads. Its pixels are those of the picture
+/// that render() returns, byte for byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.

@@ -157,9 +157,9 @@ template <AnyWorld W, std::floating_point T, Material M>
 }
 // [connection]
 
-/// The radiance that a camera vertex reflects from the light vertices within the
-/// radius, each times its MIS weight.
-/// \param add  Called with the letters of a light path and the radiance.
+/// Finds the light vertices within the radius, and the radiance that a camera vertex
+/// reflects from each of them, times the MIS weight.
+/// \param add  Called with the letters of each light path and this radiance.
 // [merging]
 template <AnyWorld W, std::floating_point T, Material M, typename Add>
 void merge(const VertexMerger<W>& merger, const CameraVertex<T, M>& x, Counts& counts,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/photons/detail/verdict_bits.hpp
-/// \brief Computes the bits of a verdict grid from photons. A brick is a block of 4 x 4
+/// \brief Computes the bits of a VerdictGridT from photons. A brick is a block of 4 x 4
 /// x 4 cells of the grid. Only bricks with photons are stored.
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace ljus::detail {
 
 /// A cell of the grid, for one facing of a surface.
 struct VerdictCell {
-    std::int32_t x = 0, y = 0, z = 0; ///< Numbers along the axes, at least 0.
+    std::int32_t x = 0, y = 0, z = 0; ///< Indices along the axes, at least 0.
     std::int32_t way = 0;             ///< Facing of the surface; see facing().
 
     /// The index of the cell in its brick, 0 to 63.
@@ -154,9 +154,9 @@ template <std::floating_point T>
     return photon.kind != PhotonKind::caustic && skip.rule != SkipRule::none;
 }
 
-/// The length of the smallest cells. It is skip.radius or, if this is 0, chosen from
-/// the photons: on average, a cell and its neighbours then contain the number of
-/// photons of a light that the rule needs, but at least 20.
+/// The length of the smallest cells of a grid. It is skip.radius or, if this is 0,
+/// chosen from the photons: on average, a cell and its neighbours then contain as many
+/// photons of each light as the rule needs, but at least 20.
 /// \param box  The bounding box of the photons.
 /// \return In scene units; 0 if all photons lie at one point.
 template <std::floating_point T>
@@ -183,7 +183,7 @@ template <std::floating_point T>
     return std::max(T(length), least);
 }
 
-/// A counted photon.
+/// A photon that counts for the grid; see is_witness().
 struct Witness {
     /// The photon's cell: 64 times the index of the brick plus the index within it.
     std::uint32_t where = 0;
