@@ -120,8 +120,7 @@ struct IesGrid {
 };
 
 /// Completes the intensities by the symmetry that the range of the horizontal angles
-/// implies. If `around` is true, these angles go around the axis, as
-/// in type C.
+/// implies. `around` is true if these angles go around the axis, as in type C.
 /// \return The range that the angles should have, in words; null if the range is valid.
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();

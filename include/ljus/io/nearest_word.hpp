@@ -69,7 +69,7 @@ inline bool same_letter(char a, char b) {
 /// \return The word with the smallest edit distance, if this distance is at most 1, or
 ///         at most a third of the length of `word`. Otherwise the nearest word that
 ///         contains `word` or is a part of `word`, if both have three letters or more.
-///         Of equally near words, the first is returned; an empty text if there is none.
+///         The first of equally near words is returned; an empty text if none is near.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;
