@@ -560,8 +560,8 @@ template <std::floating_point T = float>
 
 /// Saves layers as one EXR file of one part, in scanlines compressed by ZIP. A double
 /// is rounded to float first.
-/// \throws std::invalid_argument  if there is no layer, if sizes differ, if a name
-///         occurs twice or does not have 1 to 255 bytes, or as check();
+/// \throws std::invalid_argument  if there is no layer, if the layers differ in size,
+///         if a name occurs twice or does not have 1 to 255 bytes, or as check();
 ///         std::runtime_error as save_file().
 /// \cost Memory for the file, and for buffers of 16 rows.
 template <std::floating_point T>
@@ -604,7 +604,7 @@ struct WithExr {
         return load_exr<T>(path);
     }
 };
-/// Deduces the reader of mesh files.
+/// Deduces the type of the reader of mesh files.
 template <typename Files>
 WithExr(Files) -> WithExr<Files>;
 

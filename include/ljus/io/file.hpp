@@ -108,9 +108,9 @@ private:
 /// Reads a file piece by piece. If a FilesRead exists, the file is added to its list.
 /// \param path  The file; not a pipe or a device, which may never end.
 /// \param most  The largest size in bytes.
-/// \param use   Called as use(text, last) with a piece, and whether this is the last
-///              piece. Returns the number of bytes used, from the start of the piece.
-///              The next piece begins with the unused bytes.
+/// \param use   Called as use(text, last), where `text` is a piece, and `last` is true
+///              for the last one. Returns the number of bytes used, from the start of
+///              the piece. The next piece begins with the unused bytes.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read or is
 ///         too large.
 template <typename Use>

@@ -28,11 +28,10 @@ namespace ljus {
 /// The emissiveFactor, times the strength of KHR_materials_emissive_strength, is used
 /// as radiance, in W/(m^2 sr). A material with an emissiveTexture does not glow.
 ///
-/// All pictures of a material are looked up by the sampler and the
-/// KHR_texture_transform of the baseColorTexture. With alphaMode MASK, the alpha of the
-/// baseColorTexture cuts holes. Each mesh has copies of its pictures. The width and
-/// height of all pictures are halved until the copies have at most 2^25 pixels
-/// together.
+/// All pictures of a material use the sampler and the KHR_texture_transform of the
+/// baseColorTexture. With alphaMode MASK, the alpha of the baseColorTexture cuts holes.
+/// Each mesh has copies of its pictures. The width and height of all pictures are
+/// halved until the copies have at most 2^25 pixels together.
 ///
 /// The intensities of KHR_lights_punctual are read as W/sr instead of candela, and as
 /// W/m^2 instead of lux. The intensities of point lights and spots are multiplied by

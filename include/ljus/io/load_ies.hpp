@@ -103,8 +103,8 @@ struct IesGrid {
     std::vector<double> vertical{};   ///< Vertical angles in degrees.
     std::vector<double> candela{};    ///< Intensities in cd.
 
-    /// Appends a column of a grid with the same vertical angles, at the horizontal
-    /// angle `angle`.
+    /// Appends, at the horizontal angle `angle`, a column of the grid `from`, which has
+    /// the same vertical angles.
     void append(double angle, const IesGrid& from, std::size_t column) {
         horizontal.push_back(angle);
         for (std::size_t i = 0; i < vertical.size(); ++i)
@@ -120,7 +120,7 @@ struct IesGrid {
 };
 
 /// Completes the intensities by the symmetry that the range of the horizontal angles
-/// implies. If `around`, these angles go around the axis, as in type C.
+/// implies. `around` is true if these angles go around the axis, as in type C.
 /// \return The range that the angles should have, in words; null if the range is valid.
 [[nodiscard]] inline const char* complete(IesGrid& grid, bool around) {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();
@@ -153,8 +153,8 @@ struct IesGrid {
     return nullptr;
 }
 
-/// The table of a complete grid. For the types B and A, a polar angle is measured from
-/// the pole: it is 90 degrees minus an angle of the file.
+/// The table of a complete grid. For photometers of the types B and A, a polar angle is
+/// measured from the pole: it is 90 degrees minus an angle of the file.
 [[nodiscard]] inline IntensityTable table_of(Photometry type, const IesGrid& grid) {
     const std::size_t rows = grid.vertical.size(), columns = grid.horizontal.size();
     IntensityTable table{.type = type};

@@ -229,8 +229,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// Decodes a picture.
 /// \param bytes   The file.
 /// \param path    The path of the file, for messages.
-/// \param others  The number of pixels in all pictures that the caller keeps already;
-///                with these, a picture may have at most 2^25.
+/// \param others  The number of pixels in all pictures that the caller keeps already.
+///                With the new picture, there may be at most 2^25 pixels in all.
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
 ///         file has neither an sRGB chunk nor a profile. The picture is turned upright

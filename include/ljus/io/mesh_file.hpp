@@ -188,7 +188,7 @@ MeshDetailedT<Base> detailed(const Base& base, const MeshMaterial& is,
 
 /// Adds a material of the file `loaded` to a scene that lists Lambertian; see
 /// add_meshes().
-/// \tparam Map  The type of map in the picture materials of the scene; void: UvMapT.
+/// \tparam Map  The map of the PictureTextureT that the scene lists; void means UvMapT.
 /// \return The number of the material in the scene.
 template <typename Map = void, typename Scene, std::floating_point T>
 MaterialId add_material(Scene& scene, const MeshMaterial& is,
@@ -237,7 +237,7 @@ MaterialId add_material(Scene& scene, const MeshMaterial& is,
 /// for metals, MeshMetalPicture or MeshMetalDetailed. Holes and normal maps need
 /// MeshDetailed or MeshMetalDetailed. A mesh with emission is a lamp, and has no holes
 /// or normal map. Lights of the file are added if the scene lists their types.
-/// \tparam Map  The type of map in the picture materials of the scene; void: UvMapT.
+/// \tparam Map  The map of the PictureTextureT that the scene lists; void means UvMapT.
 template <typename Map = void, typename Scene, std::floating_point T>
 void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
     for (const MeshPartT<T>& part : loaded.parts)
@@ -263,8 +263,8 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
 }
 
 /// Describes the material that add_meshes() makes of a file's material, such as
-/// "matt (0.5, 0.5, 0.5), picture wood.png". A scene that lists fewer types of material
-/// gets a simpler one.
+/// "matt (0.5, 0.5, 0.5), picture wood.png". A scene that does not list the type of
+/// this material gets a simpler material.
 [[nodiscard, gnu::cold]] inline std::string to_text(const MeshMaterial& is) {
     std::string text = is.is_glass()    ? "glass of index " + to_text(is.index)
                        : is.is_mirror() ? "mirror of " + to_text(Vec3(is.specular))

@@ -62,10 +62,10 @@ struct MeshCount {
 /// The numbers of vertices, faces and other elements of a mesh file.
 struct MeshContent {
     long long vertices = 0;    ///< Number of positions: the lines v of an OBJ file.
-    long long normals = 0;     ///< Number of normals: the lines vn.
-    long long uvs = 0;         ///< Number of texture coordinates: the lines vt.
-    long long objects = 0;     ///< Number of objects: the lines o.
-    long long groups = 0;      ///< Number of groups: the lines g.
+    long long normals = 0;     ///< Number of normals: the lines vn of an OBJ file.
+    long long uvs = 0;         ///< Number of (u, v) pairs: the lines vt of an OBJ file.
+    long long objects = 0;     ///< Number of objects: the lines o of an OBJ file.
+    long long groups = 0;      ///< Number of groups: the lines g of an OBJ file.
     long long faces = 0;       ///< Number of faces that are used.
     long long polygons = 0;    ///< Number of faces with more than three corners.
     long long flat_faces = 0;  ///< Number of faces without usable normals.

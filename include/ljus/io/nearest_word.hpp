@@ -66,9 +66,10 @@ inline bool same_letter(char a, char b) {
 }
 
 /// The word of `words` that is most like `word`.
-/// \return The word with the smallest edit distance, if at most one letter in three of
-///         `word` is wrong. Otherwise one that contains `word` or is part of it. If
-///         several words fit, the first of them; if none fits, an empty text.
+/// \return The word with the smallest edit distance, if this distance is at most 1, or
+///         at most a third of the length of `word`. Otherwise the nearest word that
+///         contains `word` or is a part of `word`, if both have three letters or more.
+///         The first of equally near words is returned; an empty text if none is near.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;

@@ -241,9 +241,10 @@ struct PhotonMapFileSettings {
     std::uint64_t key = 0;     ///< The key that the file must have.
     bool check = true;         ///< Whether the whole file is read and checked first.
                                ///< Otherwise damage is not noticed.
-    bool single_pages = false; ///< Whether the system reads single pages only, not
-                               ///< their neighbours: for a map larger than the memory.
-    int threads = 0;           ///< Threads for the check, as in ParallelSettings.
+    bool single_pages = false; ///< Whether the system reads pages without their
+                               ///< neighbours, which suits a map larger than the
+                               ///< memory.
+    int threads = 0;           ///< Number of threads; see ParallelSettings.
 };
 
 /// Opens a photon map in a file, which is mapped into memory. While the map is open,

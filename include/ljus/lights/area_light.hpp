@@ -111,8 +111,8 @@ template <typename S, std::floating_point T>
     return sample;
 }
 
-/// Samples the origin of a photon, uniformly over the area. The normal points to the
-/// emitting side.
+/// Samples the origin of a photon, uniformly over the area. The normal of the point is
+/// on the emitting side.
 template <typename S, std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const AreaLightT<S>& light,
                                               const Vec2T<T>& u, T time) {

@@ -56,7 +56,7 @@ struct EnvironmentInSceneT {
     using Scalar = T;              ///< The precision of its numbers.
     ImageT<T> picture{};           ///< Radiance times strength, in W/(m^2 sr).
     PiecewiseConstant2D density{}; ///< Brightness times solid angle of each pixel.
-    RgbT<T> sum{T(0)};             ///< The integral of the radiance, in W/m^2.
+    RgbT<T> sum{T(0)};             ///< Integral of radiance over all directions, W/m^2.
     T turn = T(0);                 ///< Rotation about +y, in full turns.
     SphereT<T> around{};           ///< The sphere around the scene.
 };

@@ -53,7 +53,8 @@ struct IntensityTable {
     std::vector<double> candela{};
 };
 
-/// A light without extent whose intensity is given by a table, e.g. of load_ies().
+/// A light without extent whose intensity is given by a table, such as that of an IES
+/// file; see load_ies().
 ///
 ///     scene.add(GoniometricLight{.table = load_ies("spot.ies").table,
 ///                                .position{0, 2.4f, 0}});

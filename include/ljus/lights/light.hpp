@@ -55,8 +55,8 @@ struct LightSampleT {
     /// End of the shadow ray. Its error bound is 0 unless the point lies on a surface.
     SurfacePointT<T> point{};
     Vec3T<T> wi{T(0)}; ///< Unit direction to the light.
-    /// Radiance over pdf for a light that paths can hit. Intensity over squared
-    /// distance for a light without extent. Irradiance for a sun.
+    /// Radiance over pdf for a light that paths can hit; intensity over squared
+    /// distance for a light without extent; irradiance for a sun.
     RgbT<T> weight{T(0)};
     T pdf = T(0); ///< Density of `wi` per steradian; 0 if no path can hit the light.
 };

@@ -152,7 +152,7 @@ namespace detail {
 /// A point of a textured lamp, and its radiance.
 template <std::floating_point T>
 struct PicturePointT {
-    SurfacePointT<T> point{}; ///< The point; the normal is on the side that shines.
+    SurfacePointT<T> point{}; ///< The point, with its normal on the side that shines.
     Vec2T<T> uv{T(0)};        ///< Coordinates in the picture.
     const RgbT<T>& radiance;  ///< The radiance in W/(m^2 sr).
 };
@@ -214,8 +214,8 @@ template <std::floating_point T>
                                  T(1) / pdf_of_point(light, radiance_at(light, uv)));
 }
 
-/// Samples the origin of a photon with the density pdf_of_point(). The normal points to
-/// the side that shines.
+/// Samples the origin of a photon with the density pdf_of_point(). The normal of the
+/// point is on the side that shines.
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> emission_point(const PictureLightT<T>& light,
                                               const Vec2T<T>& u, T /*time*/) {
@@ -223,8 +223,8 @@ template <std::floating_point T>
 }
 
 /// The flux of a photon that leaves from a point, times the number of photons of the
-/// lamp: pi times the radiance over pdf_of_point(), in W. 0 for a point outside the
-/// disc.
+/// lamp: pi times the radiance over pdf_of_point(), in W; 0 for a point outside
+/// the disc.
 // [flux_from]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> flux_from(const PictureLightT<T>& light,

@@ -16,9 +16,9 @@ namespace ljus {
 /// \brief Section 3.2.1 of the report: EON, a model that conserves energy \cite
 /// eon2025.
 ///
-/// Fujii's second model loses the light that facets send to each other. EON adds this
-/// light to the BRDF, see \ref multiple_scattering, because the lost fraction has a
-/// closed form. A white surface therefore reflects all light, at any roughness.
+/// Fujii's second model, RoughModel::fon, loses the light that facets send to each
+/// other. EON adds this light to the BRDF by a closed form; see
+/// \ref multiple_scattering. A white surface reflects all light, at any roughness.
 /// \{
 
 /// A two-sided matt surface that conserves energy.
@@ -78,13 +78,13 @@ template <std::floating_point T>
 /// A cosine lobe that is sheared towards the outgoing direction wo and cut at the
 /// horizon. The matrix M with rows (a, 0, b), (0, c, 0), (d, 0, 1) maps cosine-weighted
 /// directions to directions whose density is nearly proportional to the BRDF times the
-/// cosine. The x axis points along the azimuth of wo. The entries are fitted, in
-/// listing 2 of \cite eon2025.
+/// cosine. The x axis points along the azimuth of wo. The entries are the fits of
+/// listing 2 in \cite eon2025.
 template <std::floating_point T>
 struct EonLobeT {
     T a, b, c, d;   ///< The entries of M; d is at most 0.
     T kept;         ///< The fraction of the lobe above the horizon.
-    T uniform;      ///< The probability of a uniform direction, not from the lobe.
+    T uniform;      ///< The probability of a uniform direction instead of the lobe.
     Vec2T<T> along; ///< The azimuth of wo; unit vector.
 };
 

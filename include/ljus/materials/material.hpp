@@ -116,8 +116,8 @@ diffuse_sample(const Vec3T<T>& wi, const RgbT<T>& weight, T density) noexcept {
 }
 
 /// A material with specular lobes only. It declares
-/// `static constexpr bool only_specular = true`. The functions lobes(), evaluate() and
-/// pdf() below then serve for it.
+/// `static constexpr bool only_specular = true`. It needs no lobes(), evaluate() and
+/// pdf() of its own, because those below serve all such materials.
 template <typename M>
 concept OnlySpecular = std::floating_point<typename M::Scalar> && M::only_specular;
 

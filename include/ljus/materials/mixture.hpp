@@ -31,7 +31,7 @@ namespace ljus {
 /// times the incident light.}
 /// \{
 
-/// A material of the report.
+/// A mixture of mirror, glass and matt body, as the report describes all materials.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
 struct MixtureT {

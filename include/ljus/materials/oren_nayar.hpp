@@ -61,7 +61,7 @@ template <std::floating_point T>
 /// code computes no angles: the product of cos(phi_i - phi_o), sin(alpha) and sin(beta)
 /// is wi.x wo.x + wi.y wo.y, and a division by the larger cosine turns sin(beta) into
 /// tan(beta).
-/// \return At least 1/2. Where both directions graze, up to 3e13 in float.
+/// \return At least 1/2. In float, up to 3e13 if both directions are grazing.
 /// \cost Three divisions; no trigonometric function.
 // [oren nayar]
 template <std::floating_point T>

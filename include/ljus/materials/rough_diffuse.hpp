@@ -12,16 +12,14 @@ namespace ljus {
 /// \brief Section 3.2.1 of the report: four formulas that are called Oren-Nayar.
 /// \{
 
-/// A formula that is called Oren-Nayar. Each comment gives the largest fraction of the
-/// light of a uniform sky that a white surface reflects, over all directions and
-/// roughnesses.
+/// A formula that is called Oren-Nayar. Each comment gives the largest reflectance of
+/// a white surface under a uniform sky, over all directions and roughnesses.
 enum class RoughModel : std::uint8_t {
-    /// The formula of the report's program; reflects at most all of the light.
+    /// The formula of the report's program; its reflectance is at most 1.
     as_printed,
-    full,  ///< Oren and Nayar's full model of 1994; reflects up to 1.05 of the light.
-    fujii, ///< Fujii's first model; reflects up to 1.03 of the light.
-    /// Fujii's second model, with a roughness in [0, 1]; reflects at most all of the
-    /// light.
+    full,  ///< Oren and Nayar's full model of 1994; its reflectance is at most 1.05.
+    fujii, ///< Fujii's first model; its reflectance is at most 1.03.
+    /// Fujii's second model, with a roughness in [0, 1]; its reflectance is at most 1.
     fon
 };
 
@@ -114,7 +112,7 @@ template <std::floating_point T>
     return s > T(0) ? s / larger_cosine(wo, wi) : std::max(s, T(-1));
 }
 
-/// Fujii's first model \cite fujii2012.
+/// The ratios of Fujii's first model \cite fujii2012.
 template <std::floating_point T>
 [[nodiscard]] RoughRatiosT<T> rough_fujii(T sigma, const Vec3T<T>& wo,
                                           const Vec3T<T>& wi) noexcept {

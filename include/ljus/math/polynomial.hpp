@@ -104,8 +104,9 @@ template <std::floating_point T, std::size_t N>
 }
 // [root_between]
 
-/// Roots of a polynomial of degree N. It has at most N monotone pieces, which have
-/// N + 1 ends. roots() finds at most one root per end.
+/// At most N + 1 roots of a polynomial of degree N. The polynomial has at most N
+/// monotone pieces. roots() finds at most one root for each of the N + 1 ends of these
+/// pieces.
 template <std::floating_point T, std::size_t N>
 struct RootsT {
     std::array<T, N + 1> at{}; ///< The roots: the first `count` elements.

@@ -100,7 +100,7 @@ enum class Sampling : std::uint8_t {
     /// One point in each cell of a grid. If the grid would be too long and narrow, each
     /// of n columns and each of n rows has one point.
     jittered,
-    /// Jittered, and each of n strips along x and of n strips along y has one point.
+    /// Jittered points, exactly one in each of n columns and in each of n rows.
     multi_jittered,
     sobol ///< Sobol points with Owen's scrambling.
 };
