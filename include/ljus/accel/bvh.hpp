@@ -30,10 +30,11 @@ struct NearestHitT {
     /// Index of the primitive.
     std::uint32_t number = std::numeric_limits<std::uint32_t>::max();
     bool found = false;     ///< Whether there is a hit.
-    std::uint32_t slot = 0; ///< The primitive's slot, set by nearest_hit().
+    std::uint32_t slot = 0; ///< Position in the tree's order, set by nearest_hit().
 
     /// Accepts a hit if it is nearer than the hit found so far. The ray's t_max is then
-    /// set one ulp beyond the hit, so that a primitive at the same t is still tested.
+    /// set one or two ulps beyond the hit, so that a primitive at the same t is still
+    /// tested.
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
@@ -55,8 +56,9 @@ using NearestHit = NearestHitT<float>; ///< NearestHitT in float.
 /// The nearest hit among all primitives in a tree.
 /// \param tree  A BvhT, a Bvh8 or a TriangleBvh.
 /// \param ray   The ray. Hits lie within [t_min, t_max].
-/// \param ask   Called as ask(slot, rest) for primitives that the ray may hit. `rest`
-///              is the ray up to the nearest hit so far. Returns an optional ShapeHitT.
+/// \param ask   Called as ask(slot, rest) for primitives that the ray may hit. `slot`
+///              is a position in primitive_ids() of the tree, and `rest` is the ray up
+///              to the nearest hit so far. Returns an optional ShapeHitT.
 /// \return The same hit as a loop over all primitives.
 template <typename Tree, std::floating_point T, typename Ask>
 [[nodiscard]] NearestHitT<T> nearest_hit(const Tree& tree, const RayT<T>& ray,

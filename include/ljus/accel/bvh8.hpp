@@ -31,7 +31,7 @@ public:
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(detail::build_bvh(boxes, checked(settings)),
                                   multiple)) {}
-    /// Builds the same tree, but frees the boxes before it builds the nodes.
+    /// Builds the same tree from a vector, which is freed before the nodes are made.
     explicit Bvh8(std::vector<Box>&& boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)
         : wide_(detail::make_bvh8(
@@ -74,7 +74,8 @@ public:
         return detail::walk<true>(wide_, ray, each_slot(test), watch);
     }
 
-    /// A leaf function for detail::walk() that tests each slot.
+    /// A leaf function for detail::walk(). It calls `ask(slot)` for each primitive of
+    /// the leaf, until a call returns true.
     template <typename Ask>
     [[nodiscard]] auto each_slot(Ask& ask) const {
         return [this, &ask](std::uint32_t first, std::uint32_t count,

@@ -25,18 +25,18 @@ namespace ljus {
 
 namespace detail {
 
-/// An upper bound on |M v|, component by component, for every vector v with
-/// |v| <= size. M is the linear part of the map.
+/// An upper bound on |M v| for every vector v with |v| <= size. M is the linear part of
+/// the map. Absolute values and comparisons are taken component by component.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> transform_sizes(const AffineT<T>& map,
                                        const Vec3T<T>& size) noexcept {
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// A bound on the components of a vector of at most `size` that is transformed by the
-/// inverse map and then by the map. Absolute values are added, so that no terms cancel.
-/// The bound times the relative rounding error of the inverse map bounds the error of
-/// the result.
+/// A bound for a vector v with |v| <= size that is transformed by the inverse map and
+/// then by the map. Absolute values are added, so that no terms cancel. This bound
+/// times the relative rounding error of the inverse map is a bound on the error of the
+/// transformed vector.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {
@@ -124,14 +124,15 @@ public:
     [[nodiscard]] Wide scale() const noexcept { return scale_; }
     /// The area in the scene, in squared scene units.
     [[nodiscard]] T area() const noexcept { return area_; }
-    /// The data of the instance, for the key of a light map.
+    /// The data of the instance, from which the key of a light map is computed.
     [[nodiscard]] Data data() const noexcept {
         return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
     }
     /// The number of triangles.
     [[nodiscard]] std::uint32_t size() const noexcept { return mesh().size(); }
-    /// The triangle with the index `part` in the scene. If the map mirrors, the second
-    /// and the third vertex are exchanged, so that the triangle faces outwards.
+    /// The triangle with the index `part`, transformed to the scene. If the map
+    /// mirrors, the second and the third vertex are exchanged, so that the triangle
+    /// faces outwards.
     [[nodiscard]] TriangleT<T> triangle(std::uint32_t part) const noexcept {
         const TriangleT<T> local = mesh().triangle(part);
         const AffineT<Wide> wide(place_);
@@ -239,8 +240,8 @@ template <std::floating_point T>
                                 point_at(triangle, hit.u, hit.v, Vec3T<T>(0)));
 }
 
-/// The shading normal of the mesh, transformed to the scene. `geometric` is the
-/// triangle's normal in the scene.
+/// The shading normal of the mesh at a hit, transformed to the scene. `geometric` is
+/// the triangle's normal in the scene.
 /// \return Unit vector within 90 degrees of `geometric`; `geometric` itself if the mesh
 ///         has no shading normal there.
 template <std::floating_point T>
@@ -257,7 +258,7 @@ template <std::floating_point T>
     return glm::dot(n, geometric) > T(0) ? n : geometric;
 }
 
-/// The texture coordinates of the mesh.
+/// The texture coordinates of the mesh at a hit.
 template <std::floating_point T>
 [[nodiscard]] Vec2T<T> texture_coordinates(const InstanceT<T>& instance,
                                            const ShapeHitT<T>& hit,
@@ -265,7 +266,7 @@ template <std::floating_point T>
     return texture_coordinates(instance.mesh(), hit, point);
 }
 
-/// The texture tangents of the mesh, transformed to the scene.
+/// The texture tangents of the mesh at a hit, transformed to the scene.
 template <std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept {
@@ -307,7 +308,7 @@ template <std::floating_point T>
         sample_area(instance.mesh().triangle(part), Vec2T<T>{left, u.y}, Vec3T<T>(0)));
 }
 
-/// \overload
+/// Samples a point of an instance uniformly. The function calls area_sums().
 /// \cost That of area_sums().
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const InstanceT<T>& instance,

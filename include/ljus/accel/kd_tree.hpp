@@ -18,9 +18,10 @@ namespace ljus {
 /// in a k-d tree".
 /// \{
 
-/// A balanced k-d tree without pointers \cite bentley1975. Each range of the array is
-/// split at the median of its longest axis, down to leaves of a few points. Each range
-/// has a box, so that a search far from all points ends at once.
+/// A balanced k-d tree without pointers \cite bentley1975. It keeps the points in an
+/// array. Each range of the array has a box, and is split at the median along the
+/// longest axis of the box, down to leaves of a few points. A search far from all boxes
+/// ends at once.
 ///
 /// The tree stores positions only. The caller sorts other data into the tree's order,
 /// so that a search reads contiguous memory:

@@ -145,8 +145,8 @@ intersect(const RayT<T>& ray, const MeshT<T>& mesh) {
 }
 // [intersect]
 
-/// Whether a ray hits a mesh, for shadow rays: whether intersect() would return a hit.
-/// The first triangle that is found to be hit ends the search.
+/// Whether a ray hits a mesh, for shadow rays. The first triangle that is found to be
+/// hit ends the search.
 template <typename Compute = void, std::floating_point T>
 [[nodiscard]] LJUS_CORE_CLONES bool meets(const RayT<T>& ray, const MeshT<T>& mesh) {
     const auto prepared = prepare<Compute>(ray);
@@ -193,9 +193,9 @@ template <std::floating_point T>
 }
 
 /// The directions in which the texture coordinates of a triangle grow.
-/// \return The derivatives of the point by u and by v; 0 on a triangle whose texture
-///         coordinates span no area. If the mesh has no texture coordinates, two edges
-///         of the triangle.
+/// \return The derivatives of the point with respect to u and v; 0 on a triangle whose
+///         texture coordinates span no area. If the mesh has no texture coordinates,
+///         two edges of the triangle.
 template <std::floating_point T>
 [[nodiscard]] std::array<Vec3T<T>, 2>
 texture_tangents(const MeshT<T>& mesh, const ShapeHitT<T>& hit) noexcept {

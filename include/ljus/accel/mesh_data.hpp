@@ -77,10 +77,11 @@ void check(const MeshDataT<T>& data) {
 }
 
 /// Sets the normal of each vertex to the mean of the normals of its triangles, weighted
-/// by their angles at the vertex. This mean does not depend on how flat regions are
-/// divided into triangles \cite thurmer1998. Vertices with different indices stay
-/// separate, even at the same position, so that edges between them stay sharp. A vertex
-/// that belongs to no triangle with an area gets (0, 0, 0), which counts as no normal.
+/// by the triangles' angles at the vertex. This mean does not depend on how flat
+/// regions are divided into triangles \cite thurmer1998. Vertices with different
+/// indices stay separate, even at the same position, so that edges between them stay
+/// sharp. A vertex that belongs to no triangle with an area gets (0, 0, 0), which
+/// counts as no normal.
 /// \cost O(n) for n triangles.
 template <std::floating_point T>
 void smooth_normals(MeshDataT<T>& data) {

@@ -19,7 +19,8 @@ struct alignas(64) TriangleLanes {
     Lanes3 v1{}; ///< The first corners of the triangles.
     Lanes3 v2{}; ///< The second corners of the triangles.
     Lanes3 v3{}; ///< The third corners of the triangles.
-    /// Largest absolute component of two edges; negative in an unused lane.
+    /// The largest absolute component of the edges from v1 to v2 and from v1 to v3;
+    /// negative in an unused lane.
     Lanes size{};
 };
 

@@ -110,7 +110,7 @@ template <std::floating_point T>
     return point_at(disc, p.x, p.y, normal);
 }
 
-/// \overload
+/// Samples a point of a disc uniformly. The function calls normal(disc).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const DiscT<T>& disc,
                                            const Vec2T<T>& u) noexcept {

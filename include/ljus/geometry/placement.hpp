@@ -28,7 +28,7 @@ namespace ljus {
 template <std::floating_point T>
 struct RotationT {
     Vec3T<T> axis{T(0), T(1), T(0)}; ///< The axis, of any length except 0.
-    /// The angle in degrees, counter-clockwise for a viewer to whom the axis points.
+    /// The angle in degrees, counter-clockwise for a viewer at whom the axis points.
     T degrees = T(0);
 };
 
@@ -103,7 +103,7 @@ template <std::floating_point T>
 namespace detail {
 
 /// The scale of a round shape, which must be the same along all axes.
-/// \throws std::invalid_argument  if the scale differs; `shape` is named.
+/// \throws std::invalid_argument  if the scale differs; the message names `shape`.
 template <std::floating_point T>
 [[nodiscard]] T one_scale(const PlacementT<T>& placement, const char* shape) {
     const Vec3T<T>& s = placement.scale;

@@ -93,7 +93,7 @@ template <std::floating_point T>
     return point;
 }
 
-/// \overload
+/// The point of a quad at u and v. The function calls normal(quad).
 template <std::floating_point T>
 [[nodiscard]] inline SurfacePointT<T> point_at(const QuadT<T>& quad, T u,
                                                T v) noexcept {
@@ -108,7 +108,7 @@ template <std::floating_point T>
     return point_at(quad, u.x, u.y, normal);
 }
 
-/// \overload
+/// Samples a point of a quad uniformly. The function calls normal(quad).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const QuadT<T>& quad,
                                            const Vec2T<T>& u) noexcept {
@@ -170,7 +170,7 @@ template <std::floating_point T>
             {box.high, -z, -x},      {box.low, y, x},    {box.high, -x, -y}};
 }
 
-/// The edges of a quad.
+/// The texture tangents of a quad: its two edges.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const QuadT<T>& quad, const ShapeHitT<T>& /*hit*/) noexcept {

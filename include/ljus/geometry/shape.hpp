@@ -78,8 +78,8 @@ concept Samplable = Shape<S> && HasArea<S> &&
 };
 
 /// A shape that can have a normal map. `texture_tangents(shape, hit)` returns two
-/// vectors of any length, along the derivatives of the point by the texture coordinates
-/// u and v. A vector is 0 where there is no derivative.
+/// vectors of any length, along the derivatives of the point with respect to the
+/// texture coordinates u and v. A vector is 0 where there is no derivative.
 template <typename S>
 concept HasTangents = requires(const S& shape, const ShapeHitT<ScalarOf<S>>& hit) {
     { texture_tangents(shape, hit) } -> std::same_as<std::array<Vec3T<ScalarOf<S>>, 2>>;

@@ -195,8 +195,8 @@ enum class Spanned : std::uint8_t {
 ///
 /// A determinant \f$ P \cdot E_1 \f$ that is 0 or overflows gives a miss.
 ///
-/// Two triangles round a hit on their common edge differently. If the arithmetic is
-/// wider than the data, each shape therefore has a border as wide as this rounding
+/// At the common edge of two triangles, their rounding errors differ. If the arithmetic
+/// is wider than the data, each shape therefore has a border as wide as its rounding
 /// error, so that a ray hits at least one of the two. The border is omitted if it would
 /// be wider than the rounding of the data.
 /// \tparam Compute  The precision of the arithmetic; results are rounded to T once. In

@@ -106,7 +106,7 @@ template <std::floating_point T>
     return point;
 }
 
-/// \overload
+/// The point of a triangle at u and v. The function calls normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> point_at(const TriangleT<T>& triangle, T u,
                                         T v) noexcept {
@@ -123,7 +123,7 @@ template <std::floating_point T>
     return point_at(triangle, T(1) - root, u.y * root, normal);
 }
 
-/// \overload
+/// Samples a point of a triangle uniformly. The function calls normal(triangle).
 template <std::floating_point T>
 [[nodiscard]] SurfacePointT<T> sample_area(const TriangleT<T>& triangle,
                                            const Vec2T<T>& u) noexcept {
@@ -169,7 +169,7 @@ template <std::floating_point T>
             glm::max(glm::max(triangle.v1, triangle.v2), triangle.v3)};
 }
 
-/// The edges of a triangle at its first vertex.
+/// The texture tangents of a triangle: the two edges at its first vertex.
 template <std::floating_point T>
 [[nodiscard]] constexpr std::array<Vec3T<T>, 2>
 texture_tangents(const TriangleT<T>& triangle, const ShapeHitT<T>& /*hit*/) noexcept {

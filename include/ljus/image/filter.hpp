@@ -67,7 +67,7 @@ template <std::floating_point T>
 struct FilterSampleT {
     /// The position in pixels, from the pixel's upper left corner.
     Vec2T<T> place{T(0)};
-    T weight = T(1); ///< The filter divided by the pdf; its mean is 1.
+    T weight = T(1); ///< The filter divided by the pdf; 1 on average.
 };
 
 namespace detail {

@@ -15,8 +15,8 @@
 namespace ljus {
 
 /// \defgroup flip FLIP
-/// \brief Footnote 1: "all we really need is to make the results look real". FLIP
-/// measures how visible a difference is \cite andersson2020. Chapter:
+/// \brief Footnote 1 of the report: "all we really need is to make the results look
+/// real". FLIP measures how visible a difference is \cite andersson2020. Chapter:
 /// \ref ch_light_transport.
 /// \{
 

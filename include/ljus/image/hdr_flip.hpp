@@ -100,8 +100,8 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The mean of hdr_flip_map().
-/// \return A number in [0, 1]. It stays the same if both pictures are scaled by one
-///         number.
+/// \return A number in [0, 1]. It stays the same if both pictures are scaled by the
+///         same number.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,

@@ -134,8 +134,8 @@ template <std::floating_point T, typename Map = PlaneMapT<T>>
 struct CheckerT {
     static constexpr bool uses_uv = UsesUv<Map>; ///< Whether the map uses uv.
     Map map{};                                   ///< Maps a point to (u, v).
-    RgbT<T> even{T(0.9)}; ///< The colour of the square at (0, 0).
-    RgbT<T> odd{T(0.1)};  ///< The colour of the squares next to an even square.
+    RgbT<T> even{T(0.9)}; ///< The colour of squares whose column + row is even.
+    RgbT<T> odd{T(0.1)};  ///< The colour of the other squares.
     int columns = 2;      ///< The number of squares from u = 0 to 1; even.
     int rows = 2;         ///< The number of squares from v = 0 to 1; even.
 };

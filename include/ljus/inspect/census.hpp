@@ -12,11 +12,10 @@
 namespace ljus {
 
 /// \defgroup census The census of a photon map
-/// \brief Numbers of photons, as in the report's figures 5 to 8 (Section 3.2.2.1 of the
-/// report).
+/// \brief Numbers of photons, as in figures 5 to 8 in Section 3.2.2.1 of the report.
 /// \{
 
-/// The photons of one kind.
+/// The number and the flux of the photons of one kind.
 struct PhotonCount {
     std::uint64_t photons = 0; ///< Number of photons.
     /// Sum of the flux of these photons, in W; for shadow photons, the flux that the
@@ -24,16 +23,16 @@ struct PhotonCount {
     RgbT<double> flux{0};
 };
 
-/// The photons of a map, by kind.
+/// The number and the flux of the photons of a map, by kind.
 struct PhotonCensus {
     std::array<PhotonCount, 5> kinds; ///< The counts, indexed by PhotonKind.
 
-    /// The photons of one kind.
+    /// The number and the flux of the photons of one kind.
     [[nodiscard]] const PhotonCount& operator[](PhotonKind kind) const noexcept {
         return kinds[static_cast<std::size_t>(kind)];
     }
 
-    /// The direct, caustic and indirect photons together.
+    /// The number and the flux of the direct, caustic and indirect photons together.
     [[nodiscard]] PhotonCount light() const noexcept {
         PhotonCount sum;
         for (const PhotonKind kind :

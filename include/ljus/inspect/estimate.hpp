@@ -12,8 +12,8 @@
 namespace ljus {
 
 /// \defgroup estimate Estimates
-/// \brief The result of a Monte Carlo method: a mean with its standard error (Sections
-/// 1 and 2.1). Chapter: \ref ch_monte_carlo.
+/// \brief Sections 1 and 2.1 of the report: the result of a Monte Carlo method, a mean
+/// with its standard error. Chapter: \ref ch_monte_carlo.
 /// \{
 
 /// A running mean and variance, by Welford's sums \cite welford1962. A variance from

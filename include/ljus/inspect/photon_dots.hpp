@@ -17,8 +17,7 @@
 namespace ljus {
 
 /// \defgroup photon_dots Photons as dots
-/// \brief Drawings of photons as in figures 5 to 8 of the report (Section 3.2.2 of the
-/// report).
+/// \brief Drawings of photons, as in figures 5 to 8 in Section 3.2.2 of the report.
 /// \{
 
 /// The size and the brightness of a dot. The brightness falls linearly from the middle

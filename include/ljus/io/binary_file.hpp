@@ -162,10 +162,10 @@ inline void take_format(FileReader& file, const FileFormat& format) {
 
 } // namespace detail
 
-/// Loads a file and checks its header.
+/// Loads a file of at most `most` bytes and checks its header.
 /// \return A reader of the file, at the first number after the version.
-/// \throws std::runtime_error  "cannot read 'a.map': its checksum is wrong ...", if the
-///         file is truncated, damaged, or of another version or format.
+/// \throws std::runtime_error  if the file is longer, truncated, damaged, or of another
+///         version or format; for example "cannot read 'a.map': its checksum is wrong".
 [[nodiscard]] inline FileReader open_file(const std::string& path, std::size_t most,
                                           const FileFormat& format) {
     FileReader file{path, load_file(path, most, format.magic)};

@@ -111,13 +111,14 @@ struct Bvh8Node {
     /// The children, encoded as in Bvh8Child.
     std::array<std::uint32_t, lane_count> child;
 };
-/// The encoding of a child in 32 bits: an inner node as its position in the array of
-/// nodes, in units of Lanes, and a leaf as its first slot and number of primitives.
+/// The encoding of a child in 32 bits. An inner node is encoded as its position in the
+/// array of nodes, in units of Lanes. A leaf is encoded as its first slot and its
+/// number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
-    /// The lowest of the bits that hold the number of primitives minus 1.
+    /// The number of primitives of a leaf, minus 1, is shifted left by this many bits.
     static constexpr int count_shift = 27;
-    /// The bits of a leaf's first slot.
+    /// The mask of the bits that hold a leaf's first slot.
     static constexpr std::uint32_t first = (1u << count_shift) - 1;
     /// The number of primitives of a leaf.
     static constexpr std::uint32_t count(std::uint32_t child) noexcept {

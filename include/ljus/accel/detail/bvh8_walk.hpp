@@ -26,13 +26,14 @@ struct Bvh8Ray {
     std::array<std::size_t, 3> far{};
     float length = 0; ///< The direction's largest absolute component.
     float last = 0;   ///< The largest t that is searched.
-    /// Whether products of three lengths are finite, as conservative_filter() requires.
+    /// Whether conservative_filter() can multiply three lengths without overflow.
     bool moderate = false;
 };
 
-/// Prepares a ray. The two shifts enlarge the boxes by the margin of box_ray(). A
-/// component of the direction that is close to 0 is replaced by a small number. Within
-/// the tree's box, this replacement moves the ray by less than the margin.
+/// Prepares a ray. `near_shift` and `far_shift` enlarge the boxes by the margin of
+/// box_ray(). A component of the direction that is close to 0 is replaced by a small
+/// number. Within the tree's box, this replacement moves the ray by less than the
+/// margin.
 /// \return False if the square of the direction's length or of the distance to the box
 ///         is outside the range of float.
 [[nodiscard]] inline bool make_ready(Bvh8Ray& r, const Ray& ray, const Vec3& middle,

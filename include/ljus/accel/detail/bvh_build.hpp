@@ -310,7 +310,7 @@ template <std::floating_point T>
     return BvhBuilder<T>(boxes, settings).build();
 }
 
-/// Builds the same tree, but frees the boxes before it builds the nodes.
+/// Builds the same tree from a vector, which is freed before the nodes are made.
 template <std::floating_point T>
 [[nodiscard]] BvhNodesT<T> build_bvh(std::vector<BoxT<T>>&& boxes,
                                      const BvhSettings& settings) {

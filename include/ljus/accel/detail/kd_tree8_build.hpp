@@ -65,8 +65,9 @@ struct KdTree8Shape {
     [[nodiscard]] constexpr std::uint32_t root_children() const noexcept {
         return 1u << (halvings - 3 * (levels - 1));
     }
-    /// The first block of range `number` after the blocks were halved `depth` times.
-    /// The range ends at the first block of range `number + 1`.
+    /// The first block of a range. The list of blocks, halved `depth` times, has
+    /// 2^depth ranges, and `number` is the index of one of them. A range ends where the
+    /// next one begins.
     [[nodiscard]] constexpr std::uint64_t first_block(int depth,
                                                       std::uint64_t number) const {
         return ((number << (halvings - depth)) * blocks) >> halvings;
@@ -81,7 +82,7 @@ struct KdTree8PartsT {
     StoredArray<Lanes3T<T>> blocks{};     ///< The points, in blocks of eight.
     StoredArray<std::uint32_t> order{};   ///< Each point's index before the build.
 
-    /// The point at an index.
+    /// The point at an index in the tree's order.
     [[nodiscard]] Vec3T<T> point(std::size_t index) const noexcept {
         return blocks[index / 8][index % 8];
     }
@@ -98,16 +99,16 @@ struct KdTree8ItemT {
         : v{point.x, point.y, point.z}, index(static_cast<Index>(number)) {}
 };
 
-/// A list of items, stored in pieces. Each piece is freed when it has been read, so
-/// that the list and the result made from it are not both wholly in memory.
+/// A list of items, stored in pieces. Each piece is freed when it has been read. The
+/// list and the result that is made from it are therefore never both whole in memory.
 template <std::floating_point T>
 class KdTree8ItemsT {
 public:
     using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read, for use by other lists of the same thread. An allocator
-    /// might keep the memory of freed pieces from other threads.
+    /// Pieces that were read, which other lists of the same thread use again. If the
+    /// pieces were freed, an allocator might not give their memory to other threads.
     using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.
@@ -116,8 +117,8 @@ public:
     [[nodiscard]] const Item& operator[](std::size_t i) const noexcept {
         return pieces_[i / piece][i % piece];
     }
-    /// Unused memory for at least one item behind the last one. take() adds the items
-    /// that were written into this memory.
+    /// Unused memory behind the last item, with space for at least one more. take()
+    /// adds the items that were written into this memory.
     [[nodiscard]] std::span<Item> room() {
         if (size_ == piece * pieces_.size()) {
             if (spare_ != nullptr && !spare_->empty()) {
@@ -137,7 +138,8 @@ public:
         require_finite("a point of the k-d tree", point);
         push({point, size_});
     }
-    /// Sets where pieces are kept after they are read. If null, they are freed.
+    /// Sets the list that keeps the pieces after they are read. If `spare` is null,
+    /// the pieces are freed.
     void share(Spare* spare) noexcept { spare_ = spare; }
     /// Adds an item.
     void push(const Item& item) {

@@ -36,7 +36,7 @@ struct WithinT {
 template <std::floating_point T>
 struct NearestOneT {
     static constexpr bool nearest_first = true;
-    /// The limit of the search. It excludes the distance of the nearest point so far.
+    /// The limit of the search: the distance of the nearest point so far, exclusive.
     ReachT<T> reach;
     std::optional<Neighbor> best{}; ///< The nearest point so far.
 
@@ -213,7 +213,7 @@ struct NearestCountedT {
 template <std::floating_point T, typename Wanted>
 struct NearestHeapT {
     static constexpr bool nearest_first = true;
-    ReachT<T> reach; ///< The limit; it excludes the k-th smallest distance.
+    ReachT<T> reach; ///< The limit: the k-th smallest distance so far, exclusive.
     Wanted& wanted;  ///< Whether a point counts.
     Nearest best;    ///< The nearest points so far.
 

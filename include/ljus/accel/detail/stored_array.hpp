@@ -34,9 +34,9 @@ struct AlignedMemory {
     char* start = nullptr;                       ///< The result of malloc().
     char* place = nullptr;                       ///< The first aligned address.
 
-    /// Changes the size. This function is not a template, so that arrays of all types
-    /// share it.
-    /// \param kept  Bytes in use, from `place` on.
+    /// Changes the size of the memory. This function is not a template, so that arrays
+    /// of all types share it.
+    /// \param kept  The number of bytes from `place` on that keep their values.
     /// \param size  The new size in bytes, at least `kept`.
     /// \throws std::bad_alloc  if there is not enough memory.
     void take(std::size_t kept, std::size_t size);

@@ -26,8 +26,8 @@ namespace detail {
 
 template <std::floating_point T>
 struct IntervalT {
-    T low = T(0);  ///< The lower end.
-    T high = T(0); ///< The upper end.
+    T low = T(0);  ///< The lower end of the interval.
+    T high = T(0); ///< The upper end of the interval.
 };
 
 /// A field f along a ray O + tD, as a function of t. f is negative outside [enter,

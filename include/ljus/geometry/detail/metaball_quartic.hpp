@@ -42,7 +42,7 @@ using Blob = BlobT<float>; ///< BlobT in float.
 /// falls after it, so that most spans have at most one sign change.
 struct QuarticPieces {};
 
-/// A solver that finds the roots of the quartics by quartic_formula(), for comparison.
+/// A solver like QuarticPieces that finds roots by quartic_formula(), for comparison.
 struct Radicals {};
 
 namespace detail {

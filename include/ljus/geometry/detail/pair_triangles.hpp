@@ -26,7 +26,7 @@ struct FlatShapesT {
     std::vector<TriangleT<T>> triangles;
 };
 
-/// Joins two triangles if they share an edge, face the same way and form a
+/// Joins pairs of triangles that share an edge, face the same way and form a
 /// parallelogram. Files often split a wall or a lamp into two triangles. One quad costs
 /// half as much as two triangles, and the lamp becomes a single light. The fourth
 /// vertex may be off the parallelogram by a few units in the last place of a double,
