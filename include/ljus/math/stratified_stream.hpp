@@ -25,7 +25,7 @@ struct StratifiedStream {
     int ray = 0;           ///< The ray's number, in [0, pattern.points).
     std::uint64_t key = 0; ///< A random number that is the same in all rays of a pixel.
     std::uint64_t dimension = 0; ///< The index of the next draw.
-    RandomStream rest{};         ///< The stream for the position within a cell.
+    RandomStream rest{};         ///< Numbers for positions within cells of the pattern.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.

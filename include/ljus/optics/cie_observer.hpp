@@ -23,9 +23,9 @@ inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
 } // namespace detail
 
-/// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
-/// fitted by seven Gaussians \cite wyman2013. The fit is within 0.03 of the CIE's
-/// table, whose values go up to 1.8.
+/// The colour matching functions of the CIE's standard observer of 1931, for a field of
+/// view of 2 degrees, fitted by seven Gaussians \cite wyman2013. The fit is within 0.03
+/// of the CIE's table, whose values go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.

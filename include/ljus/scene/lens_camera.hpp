@@ -19,7 +19,7 @@ namespace ljus {
 /// focus appear sharp in the picture. with_lens() makes such a camera.
 template <std::floating_point T>
 struct LensCameraT {
-    using Scalar = T;     ///< The precision of its numbers.
+    using Scalar = T;     ///< The precision of the camera's numbers.
     CameraT<T> pinhole{}; ///< The same camera with a pinhole.
     T radius = T(0);      ///< Radius of the lens, in scene units; 0 for a pinhole.
     T focus = T(1);       ///< Distance of the plane of focus, in scene units.
