@@ -46,8 +46,8 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce; bounce 0 is the camera. The numbers of a
-/// bounce do not depend on how many numbers were drawn before.
+/// Moves a stream to the start of a bounce; bounce 0 is the camera ray. The numbers
+/// of a bounce do not depend on how many numbers were drawn before.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);

@@ -119,7 +119,7 @@ public:
 
     /// Makes the renderer. The other renderer, `whole`, must outlive it. `carried` is
     /// the class of paths, as for light_path_expression().
-    /// \throws std::invalid_argument  as light_path_expression().
+    /// \throws std::invalid_argument  if `carried` is not a valid expression.
     OnlyPaths(Ref<R> whole, std::string_view carried)
         : whole_(whole), carried_(light_path_expression(carried)) {}
     /// The renderer that traces the paths.

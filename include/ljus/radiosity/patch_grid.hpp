@@ -26,7 +26,7 @@ namespace detail {
 enum class GridKind : std::uint8_t {
     quad,     ///< Columns along u and rows along v.
     triangle, ///< columns^2 congruent triangles.
-    ball,     ///< As a quad, but the first and the last row are neighbours.
+    ball,     ///< The same as `quad`, but its first and last rows are neighbours.
 };
 
 } // namespace detail

@@ -248,7 +248,7 @@ struct ContactObject {
 struct ContactSearch {
     /// The objects, in the order of types and indices.
     std::span<const ContactObject> objects;
-    double epsilon; ///< Machine epsilon of the precision.
+    double epsilon; ///< Machine epsilon in the scene's precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
     /// Writes the emission and the material of an object into a key.
     FunctionRef<void(ContactKey&, ObjectId)> put;

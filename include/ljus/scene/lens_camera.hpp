@@ -40,9 +40,10 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray from a point of the lens, which is uniform if `u` is a uniform point
-/// of the unit square. The ray meets the ray through the pinhole in the plane of focus.
-/// `pixel` is the position in pixels from the upper left corner of the picture.
+/// The primary ray from the point of the lens that `u` selects. If `u` is uniform in
+/// the unit square, the point is uniform on the lens. In the plane of focus, this ray
+/// meets the ray through the pinhole. `pixel` is the position in pixels from the upper
+/// left corner of the picture.
 /// \return A ray from the lens, with a direction of unit length.
 /// \cite cook1984
 // [lens ray]

@@ -362,8 +362,8 @@ public:
     }
     /// Whether a material of the scene has holes.
     [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
-    /// Whether a predicate is true for the type of at least one listed light within a
-    /// World; see Scene::any_light().
+    /// Whether a predicate is true for at least one of the types that the scene's
+    /// lights have in this world; see Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
         return S::any_light(f);
