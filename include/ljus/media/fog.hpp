@@ -47,7 +47,7 @@ struct Fog {
 /// \{
 
 /// The interval of t in which a ray is inside a sphere.
-/// \return Nothing if the ray misses the sphere or only touches it.
+/// \return Nothing if the ray misses the sphere or only touches it in one point.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
                                               const RayT<T>& ray) noexcept {
@@ -65,7 +65,7 @@ template <std::floating_point T>
 }
 
 /// The interval of t in which a ray is inside a box.
-/// \return Nothing if the ray misses the box or only touches it.
+/// \return Nothing if the ray misses the box or only touches it in one point.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
                                               const RayT<T>& ray) noexcept {
@@ -138,7 +138,7 @@ template <typename Region>
 }
 
 /// The interval of t in which a ray is inside the fog.
-/// \return Nothing if the ray misses the fog or only touches it.
+/// \return Nothing if the ray misses the fog or only touches it in one point.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {

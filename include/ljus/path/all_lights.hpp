@@ -268,7 +268,7 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the radiance towards `wo` from one light: the mean of at least 1 shadow ray.
+/// Adds the radiance towards `wo` from one light: the mean of one or more shadow rays.
 /// \param u  Position within each cell of the light.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void
