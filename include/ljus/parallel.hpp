@@ -28,6 +28,7 @@ namespace ljus {
 inline constexpr int max_threads_allowed = 1024;
 
 /// The callback of a long loop: a callable that must outlive the loop; see FunctionRef.
+/// It receives how many parts of the work are done, and how many there are in total.
 /// The loop stops if the callback returns false.
 ///
 ///     auto progress = [&](long long done, long long total) { return !stopped; };

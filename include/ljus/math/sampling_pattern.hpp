@@ -180,10 +180,10 @@ template <std::floating_point T>
 }
 // [multi_jittered]
 
-/// A scrambled Sobol point.
-/// \return Point of the unit square, with coordinates below 1. If a grid has 2^k cells
-///         and its numbers of columns and rows are powers of two, each cell has one of
-///         the first 2^k points.
+/// Point `number` of the Sobol sequence, scrambled by `key`. If the unit square is
+/// divided into 2^k cells, and the numbers of columns and rows are powers of two, each
+/// cell has one of the first 2^k points.
+/// \return Point of the unit square, with coordinates below 1.
 /// \cite owen1995 \cite burley2020
 template <std::floating_point T>
 [[nodiscard]] constexpr Vec2T<T> scrambled_sobol(int number,

@@ -25,7 +25,7 @@ struct StratifiedStream {
     int ray = 0;           ///< The ray's number, in [0, pattern.points).
     std::uint64_t key = 0; ///< A random number that is the same in all rays of a pixel.
     std::uint64_t dimension = 0; ///< The index of the next draw.
-    RandomStream rest{};         ///< The stream for the position within a cell.
+    RandomStream rest{};         ///< Numbers for positions within cells of the pattern.
 };
 
 /// Sets a stream to the numbers of one ray of a pixel.
@@ -46,8 +46,8 @@ constexpr void start_ray(StratifiedStream& stream, std::uint64_t seed,
               .rest = random_stream(seed, Pass::camera, 0, path)};
 }
 
-/// Moves a stream to the start of a bounce; bounce 0 is the camera. The numbers of a
-/// bounce do not depend on how many numbers were drawn before.
+/// Moves a stream to the start of a bounce; bounce 0 is the camera ray. The numbers
+/// of a bounce do not depend on how many numbers were drawn before.
 constexpr void start_bounce(StratifiedStream& stream, std::uint64_t bounce) noexcept {
     stream.dimension = bounce << 16;
     start_bounce(stream.rest, bounce);

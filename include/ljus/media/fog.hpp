@@ -34,7 +34,7 @@ T precision_of(const Region<T>&);
 /// \tparam Region  Sphere or Box.
 template <typename Region>
 struct Fog {
-    /// The precision of its numbers.
+    /// The precision of the fog's numbers.
     using Scalar = decltype(detail::precision_of(std::declval<const Region&>()));
     Region region{}; ///< The space that the fog fills, in scene units.
     RgbT<Scalar> absorption{Scalar(0)}; ///< Coefficient sigma_a, per scene unit.
@@ -47,7 +47,7 @@ struct Fog {
 /// \{
 
 /// The interval of t in which a ray is inside a sphere.
-/// \return As span_in().
+/// \return Nothing if the ray misses the sphere or only touches it in one point.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const SphereT<T>& sphere,
                                               const RayT<T>& ray) noexcept {
@@ -65,7 +65,7 @@ template <std::floating_point T>
 }
 
 /// The interval of t in which a ray is inside a box.
-/// \return As span_in().
+/// \return Nothing if the ray misses the box or only touches it in one point.
 template <std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_of(const BoxT<T>& box,
                                               const RayT<T>& ray) noexcept {
@@ -95,14 +95,16 @@ template <std::floating_point T>
     return box;
 }
 
-/// Checks a sphere as a region; throws as check().
+/// Checks a sphere that fog fills.
+/// \throws std::invalid_argument  if the sphere is not finite or has no volume.
 template <std::floating_point T>
 void check_region(const SphereT<T>& sphere) {
     require_finite("fog.region.center", sphere.center);
     require_positive("fog.region.radius", sphere.radius);
 }
 
-/// Checks a box as a region; throws as check().
+/// Checks a box that fog fills.
+/// \throws std::invalid_argument  if the box is not finite or has no volume.
 template <std::floating_point T>
 void check_region(const BoxT<T>& box) {
     require_finite("fog.region.low", box.low);
@@ -136,7 +138,7 @@ template <typename Region>
 }
 
 /// The interval of t in which a ray is inside the fog.
-/// \return Nothing if the ray misses the fog or only touches it.
+/// \return Nothing if the ray misses the fog or only touches it in one point.
 template <typename Region, std::floating_point T>
 [[nodiscard]] std::optional<SpanT<T>> span_in(const Fog<Region>& fog,
                                               const RayT<T>& ray) noexcept {

@@ -23,9 +23,9 @@ inline constexpr std::array<T, 2> visible{T(360), T(830)};
 
 } // namespace detail
 
-/// The colour matching functions of the CIE's standard observer of 1931 (2 degrees),
-/// fitted by seven Gaussians \cite wyman2013. The fit is within 0.03 of the CIE's
-/// table, whose values go up to 1.8.
+/// The colour matching functions of the CIE's standard observer of 1931, for a field of
+/// view of 2 degrees, fitted by seven Gaussians \cite wyman2013. The fit is within 0.03
+/// of the CIE's table, whose values go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
 /// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
 /// \cost Seven exponentials.
@@ -51,7 +51,7 @@ template <std::floating_point T>
 /// X = Y = Z = 1 becomes the screen's white (1, 1, 1), so that a surface that reflects
 /// all light looks white. For this purpose X, Y and Z are multiplied by those of the
 /// screen's white before the matrix of the sRGB standard is applied. A pure colour has
-/// a negative channel, because no screen can show it.
+/// one or two negative channels, because no screen can show it.
 template <std::floating_point T>
 [[nodiscard]] constexpr RgbT<T> xyz_to_rgb(const Vec3T<T>& xyz) noexcept {
     // The rows of IEC 61966-2-1 times (0.95047, 1, 1.08883); each adds up to 1.

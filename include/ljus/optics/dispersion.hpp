@@ -62,16 +62,17 @@ template <std::floating_point T>
     return law.a + law.b / (nm * nm * T(1e-6));
 }
 
-/// Abbe's number \f$ V = (n_d - 1)/(n_F - n_C) \f$, with the indices at the lines d, F
-/// and C. It is 64 for crown glass and 21 for heavy flint. A smaller number gives a
-/// wider spectrum; without dispersion the number is infinite.
+/// Abbe's number \f$ V = (n_d - 1)/(n_F - n_C) \f$, where n_d, n_F and n_C are the
+/// indices at 587.56, 486.13 and 656.27 nm. It is 64 for crown glass and 21 for heavy
+/// flint. A smaller number gives a wider spectrum; without dispersion the number is
+/// infinite.
 template <std::floating_point T, template <typename> typename Law>
 [[nodiscard]] T abbe_number(const Law<T>& law) noexcept {
     return (refractive_index(law, line_d<T>) - T(1)) /
            (refractive_index(law, line_F<T>) - refractive_index(law, line_C<T>));
 }
 
-/// Cauchy's formula for a medium with the index n_d > 1 at the d line, and Abbe's
+/// Cauchy's formula for a medium with the index n_d > 1 at 587.56 nm, and with Abbe's
 /// number > 0.
 // [cauchy_from_abbe]
 template <std::floating_point T>
@@ -153,8 +154,8 @@ struct WavelengthTable {
 /// The weight of a path with a single wavelength, as a colour: the eye's response to
 /// the wavelength, divided by pdf_wavelength().
 ///
-/// The response is the wavelength's colour in linear sRGB, without its negative
-/// channel. Each channel is scaled so that a constant spectrum is white. The response
+/// The response is the wavelength's colour in linear sRGB, with 0 in place of negative
+/// channels. Each channel is scaled so that a constant spectrum is white. The response
 /// and the density are constant in bands of 5 nm.
 /// \param nm  The wavelength in nm, in [360, 830].
 /// \return Three channels of at least 0 that add up to 3. The mean over

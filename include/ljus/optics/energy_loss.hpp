@@ -18,16 +18,16 @@ namespace ljus {
 
 namespace detail {
 
-/// The fraction of light that white facets lose if light is reflected only once: 1 -
-/// E(mu), where E(mu) is the fraction that they reflect \cite kulla2017, and mu the
-/// cosine between the light and the normal. The cells of the table are small near the
-/// horizon, where the loss is steep.
+/// A table of the fraction of light that white facets lose if light is reflected only
+/// once: 1 - E(mu), where E(mu) is the fraction that they reflect \cite kulla2017, and
+/// mu is the cosine between the light and the normal. The cells of the table are small
+/// near the horizon, where the loss is steep.
 template <std::floating_point T>
 struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
     T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
-    /// The fraction of the whole loss that lies at smaller cosines.
+    /// The fraction of the cosine-weighted loss that lies at smaller cosines.
     std::array<T, cells + 1> below{};
     T mean = T(0); ///< The cosine-weighted mean of the loss over the hemisphere.
 };
@@ -62,8 +62,8 @@ template <std::floating_point T>
 }
 // [lost at]
 
-/// Samples a cosine with a density proportional to the loss times the cosine. Within a
-/// cell of the table, the loss is constant.
+/// Samples a cosine with a density proportional to the loss times the cosine. The loss
+/// counts as constant within a cell of the table.
 /// \cost A binary search and a square root.
 template <std::floating_point T>
 [[nodiscard]] T sample_lost(const EnergyLossT<T>& loss, T u) noexcept {

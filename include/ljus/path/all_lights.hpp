@@ -109,8 +109,8 @@ analytic_light(const W& world, std::uint32_t light, const SeenLampT<T>& lamp,
 /// multiple importance sampling.
 /// \param path      The path after next_vertex(). It was scattered at path.previous.
 /// \param lamp      The vertex that the ray hit; nothing if the ray left the scene.
-/// \param reaching  The density of the ray's direction, per steradian. In fog it is
-///                  multiplied by passing().
+/// \param reaching  The density of the ray's direction, per steradian. In fog the
+///                  caller multiplies it by passing().
 /// \param rays      Number of shadow rays per light.
 /// \return Throughput times radiance times the weight.
 template <AnyWorld W, std::floating_point T>
@@ -268,7 +268,7 @@ template <std::floating_point T, typename Context>
     return stratified(cells, i, key, u);
 }
 
-/// Adds the radiance towards `wo` from one light: the mean of at least 1 shadow ray.
+/// Adds the radiance towards `wo` from one light: the mean of one or more shadow rays.
 /// \param u  Position within each cell of the light.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[gnu::always_inline]] inline void

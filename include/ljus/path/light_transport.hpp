@@ -39,7 +39,7 @@ namespace detail {
 /// A log that sums the terms of one class of paths.
 template <std::floating_point T>
 struct ExpressionLog {
-    const LightPathExpression& wanted; ///< The class.
+    const LightPathExpression& wanted; ///< The class of paths.
     RgbT<T> sum{T(0)};        ///< Sum of the terms, which contain the throughput.
     std::uint64_t states = 0; ///< The automaton's states for the path so far.
 
@@ -74,7 +74,8 @@ struct ExpressionLog {
 template <std::floating_point T>
 struct ClassesLog {
     std::vector<ExpressionLog<T>> logs{}; ///< One log for each class.
-    /// For each delayed term, one bit per class: whether the term belongs to the class.
+    /// For each term whose value a batch finds later, one bit per class: whether the
+    /// term belongs to the class.
     std::vector<std::uint64_t> takers{};
     /// Where delay() writes the new size of `takers`.
     std::uint32_t* next_delayed = nullptr;
@@ -93,7 +94,7 @@ struct ClassesLog {
               const RgbT<T>& value) noexcept {
         for (auto& log : logs) log.term(owner, letters, value);
     }
-    /// Records which classes a delayed term belongs to.
+    /// Records the classes of a term whose value a batch finds later.
     void delay(std::string_view letters) {
         std::uint64_t bits = 0;
         for (std::size_t k = 0; k < logs.size(); ++k)
@@ -118,7 +119,7 @@ public:
 
     /// Makes the renderer. The other renderer, `whole`, must outlive it. `carried` is
     /// the class of paths, as for light_path_expression().
-    /// \throws std::invalid_argument  as light_path_expression().
+    /// \throws std::invalid_argument  if `carried` is not a valid expression.
     OnlyPaths(Ref<R> whole, std::string_view carried)
         : whole_(whole), carried_(light_path_expression(carried)) {}
     /// The renderer that traces the paths.

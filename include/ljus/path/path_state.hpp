@@ -23,7 +23,7 @@ struct PathStateT {
     /// For a camera path, the factor by which the radiance that the path finds is
     /// multiplied. For a photon, its flux in W.
     RgbT<T> throughput{T(1)};
-    T eta_scale = T(1); ///< The product of all BsdfSampleT::eta_scale.
+    T eta_scale = T(1); ///< Product of BsdfSampleT::eta_scale over all vertices.
     /// Absorption coefficient around the current ray, per scene unit.
     RgbT<T> medium{T(0)};
     bool medium_known = false; ///< If false, next_vertex() finds the medium.

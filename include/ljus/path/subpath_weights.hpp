@@ -47,10 +47,10 @@ namespace ljus {
 /// direction from x to the vertex before x; and \f$\eta = N \pi r^2\f$ is the term of
 /// merging at x, with N light paths and the radius r.
 struct SubpathWeights {
-    /// The term of the sum for the strategy that connects the last vertex, x, to the
-    /// vertex before x.
+    /// The number for the strategy that connects the last vertex, x, to the vertex
+    /// before x.
     double join = 0;
-    /// The term of the sum for all strategies that join the subpaths earlier.
+    /// The number for all strategies whose joint lies still earlier on the subpath.
     double further = 0;
 };
 

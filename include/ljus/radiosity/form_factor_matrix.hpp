@@ -42,7 +42,7 @@ struct FormFactors {
 
 /// How form factors are computed.
 struct FormFactorSettings {
-    /// Whether form factors between flat patches are computed by the closed form.
+    /// Whether form factors between flat patches are computed by exchange_area().
     bool analytic = true;
     /// Number of rays from each patch whose form factors have no closed form.
     int rays = 256;

@@ -26,14 +26,14 @@ namespace detail {
 enum class GridKind : std::uint8_t {
     quad,     ///< Columns along u and rows along v.
     triangle, ///< columns^2 congruent triangles.
-    ball,     ///< As a quad, but the first and the last row are neighbours.
+    ball,     ///< The same as `quad`, but its first and last rows are neighbours.
 };
 
 } // namespace detail
 
 /// The cells of one side of a shape.
 struct PatchGrid {
-    ObjectId object{};                              ///< The object.
+    ObjectId object{}; ///< The object whose side is divided.
     detail::GridKind kind = detail::GridKind::quad; ///< How the shape is divided.
     bool back = false;         ///< True for the side of the object that does not emit.
     bool inward = false;       ///< True for the side opposite to the shape's normal.
@@ -97,7 +97,7 @@ struct CellPlace {
     bool upper = false;       ///< True for a triangle that stands on its tip.
 };
 
-/// The position of the cell with an index within its grid.
+/// The position of a cell, from its index within the grid.
 [[nodiscard]] constexpr CellPlace place_of(const PatchGrid& grid,
                                            std::uint32_t cell) noexcept {
     if (grid.kind != detail::GridKind::triangle)

@@ -35,9 +35,9 @@ struct Radiosity {
     LightMap map{};               ///< The irradiance of each patch, to draw and save.
 };
 
-/// The energy balance of a solution, the radiosity of each patch in W/m^2. For an exact
-/// solution, the emitted flux is the sum of the absorbed and the escaped flux, up to
-/// rounding, for any size of patches and any number of rays.
+/// The energy balance of a solution, from the radiosity of each patch in W/m^2. For an
+/// exact solution, the emitted flux is the sum of the absorbed and the escaped flux, up
+/// to rounding, for any size of patches and any number of rays.
 [[nodiscard]] inline EnergyBalance
 energy_balance(const Patches& patches, const FormFactors& factors,
                const std::vector<RgbT<double>>& radiosity) {
@@ -65,9 +65,9 @@ template <AnyWorld W>
     return {detail::scene_hash(world), how.value};
 }
 
-/// The light map of a solution, the radiosity of each patch in W/m^2. The irradiance
-/// includes the light that the patches have not yet shot. In LightMap::key, only the
-/// hash of the scene is set; see light_map_key().
+/// The light map of a solution, from the radiosity of each patch in W/m^2. The
+/// irradiance includes the light that the patches have not yet shot. In LightMap::key,
+/// only the hash of the scene is set; see light_map_key().
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,

@@ -20,7 +20,7 @@ namespace ljus {
 /// A pinhole camera; look_at() makes one.
 template <std::floating_point T>
 struct CameraT {
-    using Scalar = T;                    ///< The precision of its numbers.
+    using Scalar = T;                    ///< The precision of the camera's numbers.
     Vec3T<T> position{T(0)};             ///< The pinhole, in scene units.
     Vec3T<T> right{T(1), T(0), T(0)};    ///< Unit vector to the right of the picture.
     Vec3T<T> up{T(0), T(1), T(0)};       ///< Unit vector to the top of the picture.

@@ -127,7 +127,8 @@ template <std::floating_point T>
     return within(0) && within(1) && within(2);
 }
 
-/// bounds() of a shape or of its bounding sphere.
+/// The bounding box of a shape or, if the shape has no bounds(), of its bounding
+/// sphere.
 template <Shape S>
 [[nodiscard]] auto box_around(const S& shape) {
     if constexpr (requires { bounds(shape); })
@@ -166,7 +167,8 @@ template <typename G>
             .count = 4};
 }
 
-/// The number of pieces of a shape; 0 if it is not compared with others.
+/// The number of pieces of a shape that are compared with other shapes: the number of
+/// triangles of a mesh, 1 for a single surface, and 0 for a shape that is not compared.
 template <Shape G>
 [[nodiscard]] std::uint32_t piece_count([[maybe_unused]] const G& shape) noexcept {
     if constexpr (is_moving<G>)
@@ -238,7 +240,7 @@ struct ContactObject {
     ObjectId id{};
     ContactKind kind = ContactKind::opaque;
     std::uint32_t material = 0; ///< The number of the object's material.
-    std::uint32_t pieces = 0;   ///< Number of pieces; 0 if the object is not compared.
+    std::uint32_t pieces = 0;   ///< The result of piece_count().
     double area = 0;            ///< The area of the object; 0 if unknown.
     BoxT<double> box{};
 };
@@ -246,7 +248,7 @@ struct ContactObject {
 struct ContactSearch {
     /// The objects, in the order of types and indices.
     std::span<const ContactObject> objects;
-    double epsilon; ///< Machine epsilon of the precision.
+    double epsilon; ///< Machine epsilon in the scene's precision.
     FunctionRef<SurfacePiece(ObjectId, std::uint32_t)> piece;
     /// Writes the emission and the material of an object into a key.
     FunctionRef<void(ContactKey&, ObjectId)> put;
@@ -336,7 +338,7 @@ private:
     return 8 * epsilon * reach_of(box);
 }
 
-/// The pieces that are compared.
+/// The pieces of all objects that are compared; see piece_count().
 struct ContactPieces {
     std::vector<Box> boxes{};
     std::vector<std::uint32_t> looks{};

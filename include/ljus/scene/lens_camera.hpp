@@ -19,7 +19,7 @@ namespace ljus {
 /// focus appear sharp in the picture. with_lens() makes such a camera.
 template <std::floating_point T>
 struct LensCameraT {
-    using Scalar = T;     ///< The precision of its numbers.
+    using Scalar = T;     ///< The precision of the camera's numbers.
     CameraT<T> pinhole{}; ///< The same camera with a pinhole.
     T radius = T(0);      ///< Radius of the lens, in scene units; 0 for a pinhole.
     T focus = T(1);       ///< Distance of the plane of focus, in scene units.
@@ -40,9 +40,10 @@ template <std::floating_point T>
     return {camera, radius, focus};
 }
 
-/// The primary ray from a point of the lens, which is uniform if `u` is a uniform point
-/// of the unit square. The ray meets the ray through the pinhole in the plane of focus.
-/// `pixel` is the position in pixels from the upper left corner of the picture.
+/// The primary ray from the point of the lens that `u` selects. If `u` is uniform in
+/// the unit square, the point is uniform on the lens. In the plane of focus, this ray
+/// meets the ray through the pinhole. `pixel` is the position in pixels from the upper
+/// left corner of the picture.
 /// \return A ray from the lens, with a direction of unit length.
 /// \cite cook1984
 // [lens ray]

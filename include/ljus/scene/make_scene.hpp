@@ -104,7 +104,7 @@ scene_of(TypeList<S...>, TypeList<M...>, TypeList<L...>) {
 /// which are added in the order of the arguments. Types are listed in the order in
 /// which they first occur. Each shape gets a material of its own; Scene::add() adds
 /// shapes that share a material.
-/// \throws std::invalid_argument  as Scene::add().
+/// \throws std::invalid_argument  if a value is out of range.
 template <detail::ScenePart... Part>
 requires(detail::PlacedPart<Part> || ...)
     [[nodiscard]] auto make_scene(const Part&... parts) {

@@ -113,8 +113,8 @@ template <AnyWorld W, std::floating_point T>
     return crossing;
 }
 
-/// All bodies around the origin of a ray: the bodies that the ray, whose t_max is
-/// ignored, leaves without having entered them. Each body must be closed. It may
+/// All bodies around the origin of a ray: those that the ray leaves without having
+/// entered them. The t_max of the ray is ignored. Each body must be closed. It may
 /// consist of several shapes.
 /// \cost One call of closest_hit() per surface up to the end of the scene.
 template <AnyWorld W, std::floating_point T>

@@ -23,7 +23,7 @@ namespace ljus {
 ///     scene.add(quad, window, Rgb{1});
 template <std::floating_point T>
 struct PictureLampT {
-    using Scalar = T;                     ///< The precision of its numbers.
+    using Scalar = T;                     ///< The precision of the lamp's numbers.
     static constexpr bool uses_uv = true; ///< The picture is looked up by uv.
     /// The factors of the radiance, at least 0 and not all black. The picture may have
     /// any width and height.

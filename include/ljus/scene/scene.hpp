@@ -151,8 +151,10 @@ template <typename P>
 class Prototypes {
 public:
     Prototypes() = default;
-    Prototypes(Prototypes&&) = default;            ///< References stay valid.
-    Prototypes& operator=(Prototypes&&) = default; ///< References stay valid.
+    /// Moves the kept objects; references to them stay valid.
+    Prototypes(Prototypes&&) = default;
+    /// Moves the kept objects; references to them stay valid.
+    Prototypes& operator=(Prototypes&&) = default;
     const P& keep(P one) {
         kept_.push_back(std::move(one));
         return kept_.back();
@@ -366,7 +368,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
         return f.template operator()<FirstShape>() ||
                (f.template operator()<S>() || ...);
     }
-    /// The same as any_shape(), for materials.
+    /// The same as any_shape(), for the listed types of materials.
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return (f.template operator()<M>() || ...);

@@ -251,7 +251,7 @@ public:
     [[nodiscard]] MaterialId material_of_rank(std::uint8_t rank) const noexcept {
         return rank == 0 ? no_body : ranks_.materials[rank - 1u];
     }
-    /// The objects that have surfaces in one place.
+    /// All contacts of the scene: objects that have surfaces in the same place.
     [[nodiscard]] const Contacts& contacts() const noexcept { return contacts_; }
     /// Whether surfaces of several objects may lie at the point t of a ray.
     /// \cost A comparison in a scene without contacts.
@@ -340,12 +340,14 @@ public:
         });
     }
 
-    /// See Scene::any_shape().
+    /// Whether a predicate is true for at least one listed type of shape; see
+    /// Scene::any_shape().
     template <typename F>
     [[nodiscard]] static constexpr bool any_shape(F f) noexcept {
         return S::any_shape(f);
     }
-    /// See Scene::any_material().
+    /// Whether a predicate is true for at least one listed type of material; see
+    /// Scene::any_material().
     template <typename F>
     [[nodiscard]] static constexpr bool any_material(F f) noexcept {
         return S::any_material(f);
@@ -360,7 +362,8 @@ public:
     }
     /// Whether a material of the scene has holes.
     [[nodiscard]] bool has_holes() const noexcept { return has_holes_; }
-    /// See Scene::any_light().
+    /// Whether a predicate is true for at least one of the types that the scene's
+    /// lights have in this world; see Scene::any_light().
     template <typename F>
     [[nodiscard]] static constexpr bool any_light(F f) noexcept {
         return S::any_light(f);
@@ -692,7 +695,7 @@ template <AnyWorld W, typename F>
     }
 }
 
-/// hit_of() for an object of a scene. A point in a hole is not a hit.
+/// The hit of a ray on the shape of an object. A point in a hole is not a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] std::optional<ShapeHitT<T>> hit_on(const W& world, ObjectId id,
                                                  const RayT<T>& ray, const G& shape) {
@@ -704,7 +707,7 @@ template <typename Compute, AnyWorld W, std::floating_point T, typename G>
     });
 }
 
-/// is_met() for an object of a scene.
+/// Whether hit_on() would return a hit.
 template <typename Compute, AnyWorld W, std::floating_point T, typename G>
 [[nodiscard]] bool meets_object(const W& world, ObjectId id, const RayT<T>& ray,
                                 const G& shape) {
@@ -759,9 +762,9 @@ template <typename S, typename Compute, std::floating_point T>
     return point;
 }
 
-/// Calls f(object, hit, front) for each surface that coincides with the surface at a
-/// hit, and first for the hit itself, if the hit lies in the box of a contact. `here`
-/// is the object of the hit. `front` tells whether the ray arrives from outside the
+/// If a hit lies in the box of a contact, calls f(object, hit, front) for the hit
+/// itself, then for the hit of each other surface in the same place. `here` is the
+/// object of the first hit. `front` tells whether the ray arrives from outside the
 /// object.
 /// \return Distance of the farthest other surface from the hit, along the normal, in
 ///         scene units; nothing if there are no other surfaces.
@@ -813,7 +816,7 @@ template <typename S, typename Compute, std::floating_point T, typename F>
 /// Decides which of several coinciding surfaces a ray meets at a hit. The direction of
 /// the ray may have any length.
 /// \return The surface that counts. If no other surface coincides with the surface of
-///         the hit, this is the hit itself, without bodies.
+///         the hit, this is the hit itself, and SceneHitT::shared is false.
 /// \cost One intersection for each object that may have a coinciding surface.
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard, gnu::noinline]] PlaceHitT<T>
