@@ -165,7 +165,8 @@ struct PilotLightT {
 /// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
 /// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
 /// caustic. For `visible` E is the irradiance of all light plus a tenth of the mean
-/// irradiance, which limits the weight of dark surfaces.
+/// irradiance of the light without caustics, or of the caustics if there is no other
+/// light. This addition limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                the photons of that pass, 500 to 20 000 per object.

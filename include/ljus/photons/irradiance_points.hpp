@@ -161,7 +161,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 /// The irradiance at a lookup point, in W/m^2: direct light by shadow rays, caustics
 /// and indirect light from the maps.
-/// \param general   Its indirect photons that are not lookup points are used.
+/// \param general   The general map, of which all indirect photons are used that are
+///                  not lookup points.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
 /// \param radius    The largest radius of an estimate, in scene units.

@@ -108,7 +108,7 @@ inline constexpr long long photon_block = 512;
 inline constexpr long long pilot_paths = 4 * photon_block;
 
 /// Predicts the memory of a pass and its map, in bytes: the photons, four numbers per
-/// photon for the tree, and the blocks that are traced at a time.
+/// photon for the tree, and the blocks that are traced at the same time.
 /// \param photons  The number of paths.
 /// \param mean     The number of stored photons per path so far.
 template <std::floating_point T>

@@ -351,7 +351,8 @@ public:
     /// Changes how the maps are queried; the photons stay the same.
     /// \param caustics  As PhotonMappingSettings::caustics_estimate.
     /// \param general   As PhotonMappingSettings::general_estimate.
-    /// \throws std::invalid_argument  if a radius, k or thickness is out of range.
+    /// \throws std::invalid_argument  if a radius, a thickness or a number of nearest
+    ///         photons is out of range.
     void set_estimates(const DensityEstimateSettings& caustics,
                        const DensityEstimateSettings& general) {
         PhotonMappingSettings changed = settings_;
