@@ -45,7 +45,7 @@ struct AimedPhotonT {
 
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
 /// emits \f$1/4\pi\f$ of its flux per steradian. All photons together carry the flux
-/// into the cone around the ball. With half the opening angle theta, this cone covers
+/// into the cone around the ball. If theta is half the opening angle, this cone covers
 /// \f$2\pi(1 - \cos\theta)\f$ steradians.
 /// \param light  A point light.
 /// \param ball   The target. The light must be outside the ball.

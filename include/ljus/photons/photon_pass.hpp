@@ -27,7 +27,7 @@ enum class MapType : std::uint8_t {
 
 /// A criterion for the distribution of caustic photons among objects; see \ref budget.
 enum class CausticBudget : std::uint8_t {
-    /// In proportion to the solid angle that the object covers as seen from a light.
+    /// Photons in proportion to the solid angle of the object as seen from a light.
     as_seen,
     equal, ///< The same number of photons for each object.
     flux,  ///< Minimises the squared error of the irradiance.
@@ -165,7 +165,8 @@ template <std::floating_point T>
     return text;
 }
 
-/// A remark about a caustics pass with several lights that has stored only few photons.
+/// A remark about a caustics pass with several lights that has stored only a few
+/// photons.
 /// \return One sentence; empty if at least a tenth of the photons is stored.
 [[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
                                                        long long emitted) {

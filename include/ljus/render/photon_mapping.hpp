@@ -67,8 +67,7 @@ inline constexpr Abilities<X...> abilities{};
 /// The maps that the photon passes have made (Section 3.2.2 of the report).
 template <std::floating_point T>
 struct PhotonMapsT {
-    PhotonMapT<T> caustics; ///< Photons L S+ D; empty if the scene has no mirror and no
-                            ///< glass.
+    PhotonMapT<T> caustics; ///< Photons L S+ D; empty without a caustics pass.
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
     PhotonMapT<T> general;  ///< Photons L D, photons whose paths have an earlier D, and

@@ -134,8 +134,8 @@ struct VerdictBitsT {
     std::size_t lights = 0; ///< Number of lights.
     BrickTable table{};     ///< The existing bricks.
     /// Each brick has two elements per light: the first has a bit for each lit cell,
-    /// the second a bit for each cell in shadow. A last element has a bit for each cell
-    /// with an indirect photon in the cell or in one of its neighbours.
+    /// the second a bit for each cell in shadow. In a last element the bit of a cell
+    /// is set if the cell or one of its neighbours contains an indirect photon.
     std::vector<std::uint64_t> bits{};
 
     /// Number of elements of `bits` per brick.
