@@ -22,7 +22,7 @@ namespace ljus {
 /// object k the variance \f$ a_k^2 / n_k \f$, the sum of all variances is smallest for
 /// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, the fraction
 /// `floor` of the photons is distributed evenly. With correct a_k, the sum of the
-/// variances is then at most 1/(1 - floor) times the smallest.
+/// variances is then at most 1/(1 - floor) times the smallest possible.
 /// \param scatter  The a_k: finite and at least 0.
 /// \param floor    The fraction that is distributed evenly, in [0, 1].
 /// \return One fraction per object, at least `floor` divided by the number of objects;

@@ -100,7 +100,7 @@ template <std::floating_point T>
 }
 
 /// Checks the settings and the lights of a pass. `choice` is the distribution of the
-/// lights by power; the result is their distribution in the pass.
+/// lights by power; the result is the distribution for the pass.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice
 start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {

@@ -71,7 +71,7 @@ struct PhotonMapsT {
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
     PhotonMapT<T> general;  ///< Photons L D, photons whose paths have an earlier D, and
-                            ///< shadow photons; empty unless asked for.
+                            ///< shadow photons; empty if no general map is made.
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
     VolumeMapT<T> fog; ///< Photons in fog whose paths have an earlier D; empty without
                        ///< fog.
