@@ -44,13 +44,13 @@ struct AimedPhotonT {
 };
 
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
-/// emits \f$1/4\pi\f$ of its flux per steradian. The photons share the flux into the
-/// cone of \f$2\pi(1 - \cos\theta)\f$ steradians around the ball, where theta is half
-/// the opening angle.
+/// emits \f$1/4\pi\f$ of its flux per steradian. All photons together carry the flux
+/// into the cone around the ball. If theta is half the opening angle, this cone covers
+/// \f$2\pi(1 - \cos\theta)\f$ steradians.
 /// \param light  A point light.
 /// \param ball   The target. The light must be outside the ball.
 /// \param u      Point of the unit square; chooses the direction in the cone.
-/// \return The photon. Its flux is that of all photons together.
+/// \return The photon, with the flux of all photons together.
 /// \report{Section 3.2.2.2}
 // [aim_at_ball]
 template <std::floating_point T>
@@ -146,7 +146,8 @@ template <std::floating_point T, typename AimOf>
 template <std::floating_point T>
 struct AimedDirectionT {
     Vec3T<T> direction{T(0)};
-    T pdf = T(0); ///< The density per steradian, times the probability of the object.
+    /// Density of the direction per steradian, times the probability of the target.
+    T pdf = T(0);
     ObjectId target{};
 };
 
@@ -224,8 +225,8 @@ sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
 }
 
 /// Aims a photon of a near light at a target.
-/// \return The photon, without its time and its light. Nothing as for sample_aim(), or
-///         if the light does not emit towards the target.
+/// \return The photon, without its time and its light. Nothing if sample_aim() returns
+///         nothing, or if the light does not emit towards the target.
 template <AnyWorld W, NearLight L, std::floating_point T>
 [[nodiscard]] std::optional<AimedPhotonT<T>>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,

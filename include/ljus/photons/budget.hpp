@@ -22,7 +22,7 @@ namespace ljus {
 /// object k the variance \f$ a_k^2 / n_k \f$, the sum of all variances is smallest for
 /// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, the fraction
 /// `floor` of the photons is distributed evenly. With correct a_k, the sum of the
-/// variances is then at most 1/(1 - floor) times the smallest.
+/// variances is then at most 1/(1 - floor) times the smallest possible.
 /// \param scatter  The a_k: finite and at least 0.
 /// \param floor    The fraction that is distributed evenly, in [0, 1].
 /// \return One fraction per object, at least `floor` divided by the number of objects;
@@ -165,7 +165,8 @@ struct PilotLightT {
 /// photons, is therefore given by \f$ a_k^2 = n \sum_i (\varphi_i / E(x_i))^2 \f$. For
 /// CausticPilot::absolute E is 1. For `relative` E is the mean irradiance of the
 /// caustic. For `visible` E is the irradiance of all light plus a tenth of the mean
-/// irradiance, which limits the weight of dark surfaces.
+/// irradiance of the light without caustics, or of the caustics if there is no other
+/// light. This addition limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                the photons of that pass, 500 to 20 000 per object.

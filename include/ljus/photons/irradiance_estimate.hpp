@@ -37,12 +37,12 @@ inline constexpr Kernel default_kernel<Kernel> = Kernel::epanechnikov;
 template <KernelLike K>
 struct DensityEstimateOf {
     float radius = 0.1f; ///< Search radius in scene units, from 1e-15 to 1e15.
-    /// If above 0, only this number of nearest photons within the radius count.
+    /// Number of nearest photons that count, 2 to 512; 0 for all within the radius.
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
     /// Half the height of the disc, divided by its radius. A small value excludes
-    /// photons of parallel walls. With 0.5 the disc contains the surface within the
-    /// radius on any ball of at least this radius.
+    /// photons of parallel walls. With 0.5 the disc is high enough for the surface of
+    /// any ball whose radius is at least that of the disc.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.

@@ -161,7 +161,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 /// The irradiance at a lookup point, in W/m^2: direct light by shadow rays, caustics
 /// and indirect light from the maps.
-/// \param general   Its indirect photons that are not lookup points are used.
+/// \param general   The general map. Its indirect photons are used, except for those
+///                  that are lookup points.
 /// \param caustics  The caustics map; may be empty.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
 /// \param radius    The largest radius of an estimate, in scene units.
@@ -196,7 +197,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
 } // namespace detail
 
 /// Precomputes the irradiance at every n-th photon of the general map: direct light by
-/// shadow rays, indirect light from the general map, and caustics.
+/// shadow rays, indirect light from the general map, and caustics from their map.
 /// \param world     The closed scene.
 /// \param general   The general map.
 /// \param caustics  The caustics map; may be empty.

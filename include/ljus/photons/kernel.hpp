@@ -32,7 +32,7 @@ enum class Kernel : std::uint8_t {
     box,  ///< The constant 1, as in the report.
     cone, ///< 1 - d/r: Jensen's cone filter with the constant k = 1 \cite jensen2001.
     gaussian, ///< exp(-2 d^2 / r^2), up to d = r.
-    /// 1 - d^2/r^2: the least variance at equal bias \cite silverman1986.
+    /// 1 - d^2/r^2, which has the least variance at equal bias \cite silverman1986.
     epanechnikov,
     biweight ///< (1 - d^2/r^2)^2, which is smooth at the border.
 };

@@ -47,7 +47,7 @@ vertex_below(const W& world, const Vec3T<T>& place, const Vec3T<T>& normal, T he
     return vertex;
 }
 
-/// Whether vertex_below() finds a surface with the same normal.
+/// Whether vertex_below() finds a surface with a parallel normal.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool goes_on(const W& world, const Vec3T<T>& place,
                            const Vec3T<T>& normal, T height) {

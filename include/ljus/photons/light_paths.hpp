@@ -59,7 +59,8 @@ struct LightVertexT {
 template <std::floating_point T>
 struct LightPathsT {
     std::vector<LightVertexT<T>> vertices{}; ///< The vertices, path by path.
-    std::vector<std::size_t> last{};         ///< One past the last vertex of each path.
+    /// For each path, the index after that of its last vertex.
+    std::vector<std::size_t> last{};
     KdTree8T<T> tree{}; ///< A tree over the vertices; empty without merging.
 
     /// The vertices of one path.

@@ -27,7 +27,7 @@ enum class MapType : std::uint8_t {
 
 /// A criterion for the distribution of caustic photons among objects; see \ref budget.
 enum class CausticBudget : std::uint8_t {
-    /// In proportion to the solid angle that the object covers as seen from a light.
+    /// Photons in proportion to the solid angle of the object as seen from a light.
     as_seen,
     equal, ///< The same number of photons for each object.
     flux,  ///< Minimises the squared error of the irradiance.
@@ -108,7 +108,7 @@ inline constexpr long long photon_block = 512;
 inline constexpr long long pilot_paths = 4 * photon_block;
 
 /// Predicts the memory of a pass and its map, in bytes: the photons, four numbers per
-/// photon for the tree, and the blocks that are traced at a time.
+/// photon for the tree, and the blocks that are traced at the same time.
 /// \param photons  The number of paths.
 /// \param mean     The number of stored photons per path so far.
 template <std::floating_point T>
@@ -165,7 +165,8 @@ template <std::floating_point T>
     return text;
 }
 
-/// A remark about a caustics pass with several lights that has stored only few photons.
+/// A remark about a caustics pass with several lights that has stored only a few
+/// photons.
 /// \return One sentence; empty if at least a tenth of the photons is stored.
 [[nodiscard, gnu::cold]] inline std::string few_stored(std::size_t stored,
                                                        long long emitted) {

@@ -104,8 +104,8 @@ struct LeaveAsEmitted {
 } // namespace detail
 
 /// Emits a photon of a light chosen at random; see emit_photon(). If the light is
-/// chosen in proportion to its power, each photon carries the same flux, summed over
-/// the channels.
+/// chosen in proportion to its power, the flux, summed over the channels, is the same
+/// for all photons.
 /// \param world   The closed scene.
 /// \param choice  The distribution of the lights, at least one. World::light_choice()
 ///                chooses them in proportion to power.
@@ -285,8 +285,8 @@ template <std::floating_point T, Material M, StreamLike Stream>
 /// A photon of the general map is scattered at this point, unless Russian roulette ends
 /// it. A photon of the caustics map is not scattered; its flux is attenuated by the
 /// fog. At this point a photon of the kind PhotonKind::fog is stored if the path so far
-/// is L S+ for the caustics map, or L ... D ... for the general map. For light that
-/// comes straight from a light, shadow rays are used instead.
+/// is L S+ for the caustics map, or L ... D ... for the general map. Direct light in
+/// fog is left to shadow rays.
 /// \param path     The path after next_vertex(). Receives the flux and, if fog scatters
 ///                 the photon, the new ray.
 /// \param before   The flux before next_vertex(); receives the flux at the surface.

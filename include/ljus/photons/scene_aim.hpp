@@ -60,7 +60,7 @@ namespace detail {
 
 /// The fraction of an aimed light's photons that is sent into the cone. The other
 /// photons leave as from a light that is not aimed, because objects may lie outside the
-/// cone. Their flux is at most eight times that of a photon that is not aimed.
+/// cone. Their flux is at most eight times that of the photons of such a light.
 inline constexpr double part_in_cone = 7.0 / 8;
 
 /// Emits a photon of a near light as emit_photon() does, but with the probability
@@ -132,7 +132,7 @@ part_of_flux_in(const W& world, const L& light, const SphereT<T>& sphere) {
 template <std::floating_point T>
 struct SceneAimT {
     LightChoice choice{}; ///< The distribution of the lights.
-    SphereT<T> sphere{};  ///< From lit_sphere().
+    SphereT<T> sphere{};  ///< The result of lit_sphere().
     /// 1 for each light that is aimed, 0 for the others; empty if no light is aimed.
     std::vector<std::uint8_t> is_aimed{};
 

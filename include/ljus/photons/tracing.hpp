@@ -64,7 +64,7 @@ struct TracedPartsT {
 };
 
 /// Adds the photons of blocks, in their order, to those of a pass, and empties the
-/// blocks, which keep their memory.
+/// blocks. The memory of the blocks is not freed.
 /// \return The number of paths that no light could emit.
 template <std::floating_point T>
 long long take_photons(std::span<PhotonBlockT<T>> blocks, TracedPartsT<T>& result) {
@@ -100,7 +100,7 @@ template <std::floating_point T>
 }
 
 /// Checks the settings and the lights of a pass. `choice` is the distribution of the
-/// lights by power; the result is that of the pass.
+/// lights by power; the result is the distribution for the pass.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] LightChoice
 start_pass(MapType map, const PhotonPassSettings& pass, LightChoice choice) {
@@ -132,7 +132,8 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
     return aim_at_scene(world, choice, pass.light_shares.empty() && !pass.equal_lights);
 }
 
-/// The objects at which the photons of a caustics map are sent; none for a general map.
+/// The objects at which the photons of a caustics map are aimed; none for a general
+/// map.
 template <AnyWorld W>
 [[nodiscard]] std::vector<ObjectId> targets_of(const W& world, MapType map,
                                                const PhotonPassSettings& pass) {
@@ -236,7 +237,8 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass) {
 /// \param first  The first path, 0 or more.
 /// \param last   One past the last path, at most `pass.photons`.
 /// \return The photons in the order of emission, and what became of the flux.
-/// \throws std::invalid_argument  as trace_photons(), or if there are no such paths.
+/// \throws std::invalid_argument  as the other trace_photons(), or if the pass has no
+///         such paths.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] TracedPhotonsT<typename W::Scalar>
 trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,

@@ -408,8 +408,8 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 }
 
 /// The number of rows of blocks in a band. Each band is finished before the next one
-/// begins, which saves memory. A band may be short if the rays of a block depend only
-/// on the blocks around it. This requires `disagreement`, no target, and at least
+/// begins, which saves memory. A band may have few rows if the rays of a block depend
+/// only on the blocks around it. This requires `disagreement`, no target, and at least
 /// `first` + `more` in picture.samples. In all other cases one band contains all rows.
 [[nodiscard]] inline int rows_in_band(const RenderSettings& picture,
                                       const AdaptiveSettings& rule) noexcept {

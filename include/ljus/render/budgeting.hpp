@@ -44,7 +44,8 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
 /// \param world     The closed scene.
 /// \param settings  The budget, photons, radii. For CausticBudget::brightness, 20 000
 ///                  photons of a general pass estimate the other light in the scene.
-/// \return PhotonPassSettings::shares; unchanged if the settings contain them.
+/// \return PhotonPassSettings::shares; unchanged if the settings contain them, or for
+///         CausticBudget::as_seen.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_shares(const W& world, const PhotonMappingSettings& settings) {

@@ -27,7 +27,7 @@ struct DistributedSettings {
 };
 
 /// A tracer of distributed rays. RenderSettings::sampling stratifies the rays of a
-/// pixel over the area of the pixel and over all other dimensions.
+/// pixel over the pixel, the lens, the time, each light and each lobe.
 template <typename W>
 class DistributedTracer {
 public:

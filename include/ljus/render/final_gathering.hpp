@@ -30,7 +30,7 @@ namespace detail {
 /// sample.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
 ///                    which the direction points, in W/m^2.
-/// \param stream      Three numbers are drawn, for a Lambertian surface none.
+/// \param stream      Three numbers are drawn, or none for a Lambertian surface.
 /// \return W/(m^2 sr).
 // [reflected]
 template <Material M, std::floating_point T, typename Irradiance, typename Stream>
@@ -197,7 +197,7 @@ struct GatheredT {
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Unit normal, on the visible side.
     T distance = T(0); ///< Harmonic mean of the gather rays' lengths, in scene units.
     /// Distance to the k-th nearest point of the cache with a similar normal, where k
-    /// is GatherSettings::nearest.
+    /// is GatherSettings::nearest. The point itself is the first.
     T spacing = T(0);
 };
 

@@ -24,7 +24,7 @@ struct Gathering {
 
 /// The data that the gather rays of a mapper look up: its irradiance points and, for
 /// glossy surfaces, its caustics map.
-/// \param mapper  With Gathering; must outlive the result.
+/// \param mapper  A PhotonMapper with the ability Gathering; must outlive the result.
 template <typename Mapper>
 [[nodiscard]] GatherLookupT<typename Mapper::Scalar>
 gather_lookup(const Mapper& mapper) noexcept {
@@ -43,7 +43,7 @@ gather_lookup(const Mapper& mapper) noexcept {
 /// The fraction of the disc of a caustics estimate that lies on the surface, if the
 /// caustics map holds the light of glossy surfaces. That light covers whole walls;
 /// undivided estimates would be too dark along each edge of a wall.
-/// \param mapper  With Gathering.
+/// \param mapper  A PhotonMapper with the ability Gathering.
 /// \param vertex  The centre of the disc, as detail::at_rest() returns it.
 /// \return In (0, 1]; 1 if the map holds no such light, or for an estimate with the k
 ///         nearest photons.
@@ -57,7 +57,7 @@ template <typename Mapper, std::floating_point T>
 
 /// The radiance that a surface reflects to the viewer where an indirect ray ends,
 /// computed from the irradiance of the nearest irradiance point on each side.
-/// \param mapper    With Gathering.
+/// \param mapper    A PhotonMapper with the ability Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
 /// \param context   The random stream, from which up to three numbers are drawn; counts
@@ -77,7 +77,7 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
 
 /// The indirect radiance that a matt surface reflects to the viewer, computed from the
 /// irradiance cache.
-/// \param mapper    With Gathering.
+/// \param mapper    A PhotonMapper with the ability Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
 /// \param context   The random stream of the path; counts the query and gather rays.

@@ -175,7 +175,8 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 /// \param positions  The points, in scene units.
 /// \param records    Irradiance and normal of each point, in the same order.
 /// \param settings   The spacing of a point is the distance to its k-th nearest point
-///                   with a similar normal, where k is the member `nearest`.
+///                   with a similar normal, where k is the member `nearest` and the
+///                   point itself is the first.
 /// \param threads    As in ParallelSettings; the cache does not depend on it.
 /// \throws std::invalid_argument  if a position is not finite.
 /// \cost O(n log n) for n points.

@@ -260,8 +260,8 @@ void layer_values(const LayerSettings& which, const LayeredPixel& means, const W
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size, rays, seed, threads.
 /// \param which     The layers.
-/// \return The picture and each layer, the same for any number of threads. Layers whose
-///         classes of paths are disjoint and complete add up to the picture, up to the
+/// \return The picture and each layer, the same for any number of threads. Layers of
+///         light that together contain each path once add up to the picture, up to the
 ///         rounding of T. A sample that is not finite is left out of the picture and of
 ///         all layers of light.
 /// \throws std::invalid_argument  as render(), and for more than 64 classes of paths

@@ -20,7 +20,7 @@ struct SceneNeeds {
     std::size_t objects = 0;  ///< All objects.
     std::size_t diffuse = 0;  ///< Objects with a non-specular lobe.
     std::size_t specular = 0; ///< Objects with a specular lobe.
-    std::size_t narrow = 0;   ///< Objects that are nearly_specular().
+    std::size_t narrow = 0;   ///< Objects with a nearly_specular() material.
     std::size_t lights = 0;   ///< Lights, including emissive objects.
     std::size_t fog = 0;      ///< Media that scatter light.
     bool films = false;       ///< Whether a material is a thin surface.
@@ -50,16 +50,16 @@ template <AnyWorld W>
 
 /// Which passes run: the decisions of a Plan, without their reasons.
 struct Passes {
-    bool shadow_rays = false;      ///< As Plan::shadow_rays.
-    bool indirect_rays = false;    ///< As Plan::indirect_rays.
-    bool caustics_map = false;     ///< As Plan::caustics_map.
-    bool general_map = false;      ///< As Plan::general_map.
-    bool volume_map = false;       ///< As Plan::volume_map.
-    bool shadow_photons = false;   ///< As Plan::shadow_photons.
-    bool skipped_rays = false;     ///< As Plan::skipped_rays.
-    bool skipped_bounces = false;  ///< As Plan::skipped_bounces.
-    bool irradiance = false;       ///< As Plan::irradiance.
-    bool cache = false;            ///< As Plan::cache.
+    bool shadow_rays = false;     ///< Whether rays to lights are traced.
+    bool indirect_rays = false;   ///< Whether rays between diffuse surfaces are traced.
+    bool caustics_map = false;    ///< Whether the caustics map is made.
+    bool general_map = false;     ///< Whether the general map is made.
+    bool volume_map = false;      ///< Whether photons in fog are stored.
+    bool shadow_photons = false;  ///< Whether shadow photons are traced.
+    bool skipped_rays = false;    ///< Whether unnecessary shadow rays are skipped.
+    bool skipped_bounces = false; ///< Whether unnecessary indirect rays are skipped.
+    bool irradiance = false;      ///< Whether irradiance points are made.
+    bool cache = false;           ///< Whether the irradiance cache is made.
     bool gloss_as_mirrors = false; ///< Value of PhotonPassSettings::gloss_as_mirrors.
     bool caustics_on_gloss = true; ///< Whether the caustics map may have photons where
                                    ///< there is no diffuse lobe.

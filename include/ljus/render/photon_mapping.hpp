@@ -67,12 +67,11 @@ inline constexpr Abilities<X...> abilities{};
 /// The maps that the photon passes have made (Section 3.2.2 of the report).
 template <std::floating_point T>
 struct PhotonMapsT {
-    PhotonMapT<T> caustics; ///< Photons L S+ D; empty if the scene has no mirror and no
-                            ///< glass.
+    PhotonMapT<T> caustics; ///< Photons L S+ D; empty without a caustics pass.
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
     PhotonMapT<T> general;  ///< Photons L D, photons whose paths have an earlier D, and
-                            ///< shadow photons; empty unless asked for.
+                            ///< shadow photons; empty if no general map is made.
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
     VolumeMapT<T> fog; ///< Photons in fog whose paths have an earlier D; empty without
                        ///< fog.
@@ -351,7 +350,8 @@ public:
     /// Changes how the maps are queried; the photons stay the same.
     /// \param caustics  As PhotonMappingSettings::caustics_estimate.
     /// \param general   As PhotonMappingSettings::general_estimate.
-    /// \throws std::invalid_argument  if a radius, k or thickness is out of range.
+    /// \throws std::invalid_argument  if a radius, a thickness or a number of nearest
+    ///         photons is out of range.
     void set_estimates(const DensityEstimateSettings& caustics,
                        const DensityEstimateSettings& general) {
         PhotonMappingSettings changed = settings_;

@@ -55,7 +55,8 @@ struct GatherSettings {
     std::size_t nearest = 6; ///< Number of points in an interpolation, 2 to 64.
     float reach = 1;     ///< Largest distance of a point that is used, as a multiple
                          ///< of the harmonic mean length of its gather rays.
-    int max_depth = 100; ///< Largest number of surfaces on the path of a gather ray.
+    int max_depth = 100; ///< Largest number of surfaces on the path of a gather ray,
+                         ///< including the surface of its origin; at least 2.
 };
 
 /// Settings of the report's renderer. Lengths are in scene units.
@@ -89,8 +90,7 @@ struct PhotonMappingSettings {
     DensityEstimateSettings general_estimate{.radius = 0.3f};
     /// How radiance is estimated from photons in fog.
     BeamEstimateSettings fog_estimate{};
-    IrradiancePointSettings irradiance{}; ///< How the points that gather rays look up
-                                          ///< are made.
+    IrradiancePointSettings irradiance{}; ///< How irradiance points are made.
     GatherSettings gather{};              ///< How the irradiance cache is made.
     SkipSettings skip{};           ///< Which rays are omitted because photons make them
                                    ///< unnecessary; none by default.

@@ -208,8 +208,8 @@ bool run_progressive(ProgressiveState& state, long long passes, RenderPass&& pas
 // [run]
 
 /// Checks that the passes so far belong to the picture that is to be continued: the
-/// first pass is rendered again, and all bits are compared. They depend on the world,
-/// camera, settings, seed, program and machine.
+/// first pass is rendered again, and all bits are compared. The bits depend on the
+/// world, camera, settings, seed, program and machine.
 /// \param state  The state of a checkpoint.
 /// \param pass   The function that will render further passes; see \ref progressive.
 /// \throws std::invalid_argument  if the first pass differs.

@@ -72,7 +72,7 @@ constexpr void start_ray(RandomStream& stream, std::uint64_t seed, std::uint64_t
 
 namespace detail {
 
-/// Pixels of a row that are rendered together.
+/// The number of neighbouring pixels of a row that are rendered together.
 inline constexpr int strip_width = 16;
 
 } // namespace detail

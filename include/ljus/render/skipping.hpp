@@ -21,7 +21,7 @@ struct Skipping {
 };
 
 /// The verdicts on the lights at a vertex, for sample_all_lights().
-/// \param mapper  With Skipping; must outlive the result.
+/// \param mapper  A PhotonMapper with the ability Skipping; must outlive the result.
 /// \param vertex  The surface.
 template <typename Mapper, std::floating_point T>
 [[nodiscard]] auto verdicts_of(const Mapper& mapper,
@@ -30,7 +30,7 @@ template <typename Mapper, std::floating_point T>
 }
 
 /// Whether to omit the indirect ray of a vertex, because no indirect photon is near.
-/// \param mapper  With Skipping.
+/// \param mapper  A PhotonMapper with the ability Skipping.
 /// \param vertex  The surface.
 /// \param counts  Counts the ray that is not sent.
 template <typename Mapper, std::floating_point T>

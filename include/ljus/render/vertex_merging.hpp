@@ -97,7 +97,7 @@ template <AnyWorld W, std::floating_point T>
 // [emission]
 
 /// The radiance that a camera vertex reflects from one light, found by a shadow ray,
-/// times its MIS weight.
+/// times its MIS weight and divided by the probability of the light.
 // [shadow ray]
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> ask_light(const VertexMerger<W>& merger,

@@ -11,8 +11,7 @@ namespace ljus {
 
 /// \defgroup whitted Whitted's ray tracing
 /// \brief A tree of reflected, refracted and shadow rays (Section 2.1 of the report),
-/// after Whitted
-/// \cite whitted1980. Chapter: \ref ch_whitted.
+/// after Whitted \cite whitted1980. Chapter: \ref ch_whitted.
 ///
 /// In Heckbert's notation this renderer finds the paths L D? S* E, with one point of
 /// each light. It finds no diffuse interreflection L D D E and no caustics L S D E.

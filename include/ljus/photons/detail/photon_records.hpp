@@ -65,7 +65,7 @@ struct RecordCode {
     }
 };
 
-/// A list of PhotonRecordT in the tree's order, stored in blocks of eight.
+/// The PhotonRecordT of a map in the order of its k-d tree, stored in blocks of eight.
 template <std::floating_point T>
 class PhotonRecordsT {
 public:

@@ -134,8 +134,8 @@ struct VerdictBitsT {
     std::size_t lights = 0; ///< Number of lights.
     BrickTable table{};     ///< The existing bricks.
     /// Each brick has two elements per light: the first has a bit for each lit cell,
-    /// the second a bit for each cell in shadow. A last element has a bit for each cell
-    /// with an indirect photon near.
+    /// the second a bit for each cell in shadow. In a last element the bit of a cell
+    /// is set if the cell or one of its neighbours contains an indirect photon.
     std::vector<std::uint64_t> bits{};
 
     /// Number of elements of `bits` per brick.
@@ -233,6 +233,7 @@ using PackedCounts = std::uint64_t;
 /// index grows first along x.
 using CountsAround = std::array<PackedCounts, 216>;
 
+/// Collects the counts of the cells of a brick and of the cells around it.
 /// \param counts  The counts of all cells, 64 per brick.
 [[nodiscard]] inline CountsAround
 counts_around(const BrickTable& table, std::uint32_t brick,
