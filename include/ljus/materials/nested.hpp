@@ -3,6 +3,7 @@
 /// \file ljus/materials/nested.hpp
 /// \brief A transparent material with a priority, for bodies that overlap.
 
+#include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
 
 namespace ljus {
