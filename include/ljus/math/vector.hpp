@@ -36,8 +36,8 @@ template <std::floating_point T>
 using RgbT = glm::vec<3, T>;
 using Rgb = RgbT<float>; ///< RgbT in float.
 
-/// The precision of a computation: Compute if it is a floating-point type. Otherwise,
-/// as for the default void, the precision T of the data.
+/// The precision of a computation. It is the type Compute if that is a floating-point
+/// type, and otherwise T, the precision of the data. Compute is void by default.
 template <typename Compute, std::floating_point T>
 using ComputeT = std::conditional_t<std::is_floating_point_v<Compute>, Compute, T>;
 

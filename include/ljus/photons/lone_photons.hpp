@@ -17,11 +17,11 @@ namespace ljus {
 /// of an estimate.
 inline constexpr std::size_t lone_others = 3;
 
-/// Finds the lone photons of a map, whose flux can then be spread over wider discs. An
-/// estimate shows a lone photon as a visible disc; a wider disc of the same flux is
-/// fainter. The flux stays the same, except where the disc reaches beyond an edge. An
-/// estimate in which each photon has its own radius is called a variable kernel
-/// estimate \cite silverman1986.
+/// Finds the lone photons of a map: those with fewer than `lone_others` other photons
+/// within the radius. An estimate shows a lone photon as a visible disc. Spread over a
+/// wider disc, its flux is fainter and as large, except where the disc reaches beyond
+/// an edge. An estimate in which each photon has its own radius is called a variable
+/// kernel estimate \cite silverman1986.
 /// \param map     The photons.
 /// \param radius  The radius of the estimate, in scene units.
 /// \return A map of the lone photons, with all their data; empty if there are none.

@@ -153,7 +153,7 @@ public:
     [[nodiscard]] const LightMap& map() const noexcept { return map_; }
     /// How the map is drawn.
     [[nodiscard]] const LightMapSettings& look() const noexcept { return look_; }
-    /// The number of the grid of each side of each object, as in Patches::grid_of.
+    /// The indices of the grids of each object, as in Patches::grid_of.
     [[nodiscard]] const auto& grid_of() const noexcept { return grid_of_; }
     /// The result of vertex_light() for each grid.
     [[nodiscard]] const auto& vertices() const noexcept { return vertices_; }

@@ -55,13 +55,13 @@ template <typename Mapper, std::floating_point T>
                            T(how.radius));
 }
 
-/// The radiance that a surface reflects to the viewer where an indirect ray ends,
-/// computed from the irradiance of the nearest irradiance point on each side.
+/// The radiance that the surface at the end of an indirect ray reflects back along the
+/// ray, computed from the irradiance of the nearest irradiance point on each side.
 /// \param mapper    A PhotonMapper with the ability Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param context   The random stream, from which up to three numbers are drawn; counts
-///                  the lookup.
+/// \param context   The random stream gives up to three numbers. The counts record the
+///                  lookup.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,
