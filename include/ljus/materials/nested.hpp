@@ -3,6 +3,7 @@
 /// \file ljus/materials/nested.hpp
 /// \brief A transparent material with a priority, for bodies that overlap.
 
+#include "ljus/image/texture.hpp"
 #include "ljus/materials/material.hpp"
 
 namespace ljus {
@@ -19,6 +20,8 @@ namespace ljus {
 template <Material Base>
 requires Transparent<Base>
 struct Nested {
+    static_assert(!CutOutMaterial<Base>,
+                  "A material with holes must be opaque, and needs no priority.");
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
     static constexpr bool scatters_as_base = true; ///< Declares a MaterialWrapper.
     static constexpr bool uses_uv = UsesUv<Base>;  ///< True if the base uses uv.

@@ -32,6 +32,7 @@ using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 template <typename Base, std::floating_point T>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, NormalMapT<T>>& mapped,
                                  const Vec2T<T>& uv) noexcept {
+    static_assert(!NormalMapped<Base>, "A material has one normal map, not two.");
     const auto& picture = mapped.texture.picture;
     const Vec3T<T> n = T(2) * color_at(picture, Vec3T<T>{T(0)}, uv) - T(1);
     return {direction_on_shape(picture.map, Vec2T<T>{n.x, n.y}), n.z};
