@@ -3,6 +3,8 @@
 /// \file ljus/materials/normal_map.hpp
 /// \brief Materials whose shading normals come from a picture.
 
+#include <algorithm>
+
 #include "ljus/materials/textured.hpp"
 
 namespace ljus {
@@ -44,6 +46,15 @@ requires NormalMapped<Base>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, Texture>& textured,
                                  const Vec2T<T>& uv) noexcept {
     return normal_at(textured.base, uv);
+}
+
+/// Whether the picture turns any normal: false if red and green are 0.5 in each pixel.
+template <std::floating_point T>
+[[nodiscard]] bool turns_normals(const NormalMapT<T>& map) {
+    const auto& pixels = map.picture.image.pixels;
+    return !std::all_of(pixels.begin(), pixels.end(), [](const RgbT<T>& color) {
+        return color.x == T(0.5) && color.y == T(0.5);
+    });
 }
 
 /// Checks the picture.
