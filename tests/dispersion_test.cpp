@@ -19,12 +19,13 @@
 #include "ljus/materials/dispersive_glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/nested.hpp"
+#include "ljus/materials/normal_map.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/photons/light_paths.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
-#include "ljus/scene/world.hpp"
+#include "ljus/scene/make_scene.hpp"
 #include "support/box_sides.hpp"
 #include "support/mean.hpp"
 #include "support/refusal.hpp"
@@ -207,6 +208,31 @@ TEST_CASE("dispersion: with a priority, glass has the same index at each wavelen
         CHECK(glass.index == refractive_index(sf10<float>, nm));
         CHECK(glass.absorption == nested.base.absorption);
     }
+}
+
+TEST_CASE("dispersion: a normal map around glass leaves its spectrum") {
+    const auto check_index = [](const auto& glass) {
+        const World world(make_scene(placed(Quad{}, glass)));
+        RandomStream stream{ljus_test::test_seed(9), 0};
+        PathState path{.ray{.origin{0.4f, 0.4f, 2}, .direction{0, 0, -1}}};
+        const auto vertex = next_vertex(world, path, stream);
+        REQUIRE(vertex);
+        REQUIRE(path.wavelength > 0);
+        CHECK(path.throughput == wavelength_color(path.wavelength));
+        visit_material_at(world, *vertex, [&](const auto& here) {
+            CHECK(refractive_index(here) ==
+                  refractive_index(sf10<float>, path.wavelength));
+        });
+        CHECK(detail::index_of(world, vertex->object.material, 400.0f) ==
+              refractive_index(sf10<float>, 400.0f));
+    };
+    using Dented = Textured<DispersiveGlass, NormalMap>;
+    const DispersiveGlass flint{.law = sf10<float>};
+    const NormalMap flat{{.image = make_image(1, 1, Rgb{0.5f, 0.5f, 1})}};
+    check_index(flint);
+    check_index(Dented{flint, flat});
+    check_index(Nested<Dented>{{flint, flat}, 1});
+    check_index(Textured<Nested<DispersiveGlass>, NormalMap>{{flint, 1}, flat});
 }
 
 TEST_CASE("dispersion: a second prism gathers a spectrum, or spreads it further") {

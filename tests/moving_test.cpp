@@ -233,3 +233,31 @@ TEST_CASE("moving: a lamp that passes by lights both ends of its way alike") {
     CHECK(right.mean / left.mean == doctest::Approx(1).epsilon(0.15));
     CHECK(left.error() < 0.021 * left.mean);
 }
+
+TEST_CASE("moving: the centre of a lamp is that of its shape at the time") {
+    const Moving<Sphere> ball{{.center{-1, 3, 0}, .radius = 0.5f}, {4, 0, 1}};
+    const auto lamp = detail::make_lamp(ball, Rgb{1}, false);
+    const AreaLightT<Moving<Sphere>> light{ball, lamp};
+    const Vec3 from{0.5f, 0, -1};
+    for (const float time : {0.0f, 0.3f, 1.0f}) {
+        const auto sample = sample_light(light, from, center_sample(light), time);
+        REQUIRE(sample);
+        const Vec3 center = ball.shape.center + time * ball.displacement;
+        CHECK(glm::distance(sample->wi, glm::normalize(center - from)) < 1e-6f);
+    }
+}
+
+TEST_CASE("moving: half of a disc lies on a surface that ends at its centre") {
+    Scene<Shapes<Moving<Quad>, Moving<Triangle>>, Materials<Lambertian>> scene;
+    const auto grey = scene.add(Lambertian{});
+    scene.add(Moving<Quad>{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {0, 0.5f, 3}}, grey);
+    scene.add(Moving<Triangle>{{{5, 0, 0}, {7, 0, 0}, {6, 2, 0}}, {0, 0.5f, 3}}, grey);
+    const World world(std::move(scene));
+    for (const float x : {1.0f, 6.0f}) {
+        const Ray down{.origin{x, 0.2501f, 9}, .direction{0, 0, -1}, .time = 0.5f};
+        const auto vertex = vertex_at(world, down, *closest_hit(world, down));
+        CHECK(vertex.point.position.z == doctest::Approx(1.5));
+        CHECK(part_on_surface(world, detail::at_rest(world, vertex), {0, 0, 1}, 0.2f) ==
+              doctest::Approx(0.5).epsilon(0.01));
+    }
+}

@@ -5,8 +5,10 @@
 
 #if __has_include(<nlohmann/json.hpp>) && __has_include(<stb/stb_image.h>)
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -424,6 +426,30 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
                            ", \"m\": {" + mapped + R"(, "normals": "lean.bmp"})"));
     const Vec3 leaning = glm::normalize(Vec3{0.6f, 1 / 255.0f, 205 / 255.0f});
     CHECK(glm::distance(normal_seen(world, 0.25f, 0.5f), leaning) < 1e-6f);
+
+    // Shapes without tangents have all of it but the normals.
+    const auto on_disc = [&](const std::string& members) {
+        return world_of(
+            folder, scene_text(R"({"type": "disc", "material": "m", "center": [0, 0, 0],
+                           "normal": [0, 0, 1], "radius": 1})",
+                               ", \"m\": {" + mapped + R"(, "filter": "nearest")" +
+                                   members + "}"));
+    };
+    for (const char* members : {"", R"(, "cutoff": 0.5)"}) {
+        const World disc = on_disc(members);
+        std::vector<Rgb> colors;
+        for (const float y : {-0.4f, 0.4f})
+            for (const float x : {-0.4f, 0.4f})
+                colors.push_back(color_seen(disc, x, y));
+        for (const Rgb& color : {red, white})
+            CHECK(std::count(colors.begin(), colors.end(), color) == 1);
+        const int holes = std::string(members).empty() ? 0 : 1;
+        CHECK(std::count(colors.begin(), colors.end(), green) == 1 - holes);
+        CHECK(std::count(colors.begin(), colors.end(), blue) == 1 - holes);
+        CHECK(std::count(colors.begin(), colors.end(), open) == 2 * holes);
+    }
+    CHECK_THROWS_WITH_AS((void)on_disc(R"(, "normals": "lean.bmp")"),
+                         doctest::Contains("has a normal map"), std::invalid_argument);
 }
 
 TEST_CASE("own materials: who reads no materials says so") {

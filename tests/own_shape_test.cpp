@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ljus/geometry/moving.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/scene/world.hpp"
 #include "support/draws.hpp"
@@ -16,6 +17,13 @@ using ljus::Ray, ljus::Vec3;
 using reader::Crate;
 
 static_assert(ljus::Shape<Crate>);
+
+namespace reader {
+/// The hook that lets a box move.
+Crate translated(const Crate& box, const Vec3& by) {
+    return {box.low + by, box.high + by};
+}
+} // namespace reader
 
 namespace {
 
@@ -112,4 +120,19 @@ TEST_CASE("own shape: a scene finds it as its own shapes") {
     REQUIRE(hit);
     CHECK(hit->at.t == 2.0f);
     CHECK(hit->object.type == 1);
+}
+
+TEST_CASE("own shape: it moves if it has translated()") {
+    using Moved = ljus::Moving<Crate>;
+    ljus::Scene<ljus::Shapes<Moved>, ljus::Materials<ljus::Lambertian>> scene;
+    scene.add(Moved{{{-1, -1, -1}, {1, 1, 1}}, {4, 0, 0}},
+              scene.add(ljus::Lambertian{}));
+    const ljus::World world(std::move(scene));
+    for (const float time : {0.0f, 0.5f, 1.0f})
+        for (const float x : {0.0f, 2.0f, 4.0f}) {
+            const Ray ray{.origin{x, 0, 5}, .direction{0, 0, -1}, .time = time};
+            const auto hit = closest_hit(world, ray);
+            REQUIRE(hit.has_value() == (x == 4 * time));
+            if (hit) CHECK(hit->at.t == 4);
+        }
 }

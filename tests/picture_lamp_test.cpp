@@ -13,6 +13,7 @@
 
 #include "ljus/geometry/disc.hpp"
 #include "ljus/materials/glass.hpp"
+#include "ljus/materials/normal_map.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/photon_mapping.hpp"
@@ -294,6 +295,22 @@ TEST_CASE("picture lamp: an even picture is a plain lamp, and a half black one h
     const Mean b = flux_by_paths(shown, {}, 20000);
     CHECK(std::abs(apart(a, b)) < 5);
     CHECK(b.error() < 0.02 * b.mean);
+}
+
+TEST_CASE("picture lamp: a normal map over it leaves its picture") {
+    Image half = make_image(2, 1, Rgb{1});
+    pixel(half, 1, 0) = Rgb{0};
+    const Textured<PictureLamp, NormalMap> lamp{
+        {.picture = half}, {{.image = make_image(1, 1, Rgb{0.5f, 0.5f, 1})}}};
+    const Quad quad{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    const World world(make_scene(placed(quad, lamp, Rgb{4})));
+    CHECK(double(world.powers()[0].y) == doctest::Approx(pi * 4 * 3).epsilon(1e-6));
+    const auto seen = [&](float x) {
+        const Ray ray{.origin{x, 1, 5}, .direction{0, 0, -1}};
+        return vertex_at(world, ray, *closest_hit(world, ray)).object.emission;
+    };
+    CHECK(seen(0.5f) == Rgb{4});
+    CHECK(seen(1.5f) == Rgb{0});
 }
 
 TEST_CASE(

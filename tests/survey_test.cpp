@@ -14,17 +14,23 @@
 #include "ljus/inspect/survey.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/lights/sun_light.hpp"
+#include "ljus/materials/cut_out.hpp"
+#include "ljus/materials/dispersive_glass.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
+#include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
+#include "ljus/materials/nested.hpp"
+#include "ljus/materials/normal_map.hpp"
 #include "ljus/materials/oren_nayar.hpp"
+#include "ljus/materials/rough_glass.hpp"
 #include "ljus/materials/soap_film.hpp"
-#include "ljus/materials/textured.hpp"
 #include "ljus/render/budgeting.hpp"
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/photon_mapping.hpp"
 #include "ljus/render/render.hpp"
 #include "ljus/render/skipping.hpp"
+#include "ljus/scene/picture_lamp.hpp"
 #include "support/refusal.hpp"
 #include "support/rooms.hpp"
 
@@ -85,6 +91,20 @@ void check(const Fog&) {}
 } // absorption
 Rgb emission(const Fog&) {
     return Rgb{2};
+}
+
+/// A wrapper of a user's own, which has only the absorption of its base.
+template <Material Base>
+struct Named {
+    using Scalar = float;
+    static constexpr bool scatters_as_base = true;
+    Base base{};
+};
+template <typename Base>
+void check(const Named<Base>&) {}
+template <MayAbsorb Base>
+Rgb absorption(const Named<Base>& named) {
+    return absorption(named.base);
 }
 
 } // namespace user
@@ -281,6 +301,31 @@ TEST_CASE("survey: the hooks of the house's own types") {
     CHECK(has(detail::material_hooks<SoapFilm>(), "pass_through"));
     CHECK(has(detail::material_hooks<SoapFilm>(), "at_point"));
     CHECK(has(detail::material_hooks<Textured<Lambertian, UvPicture>>(), "uses_uv"));
+}
+
+TEST_CASE_TEMPLATE("survey: the wrappers of the house keep the hooks of any base", M,
+                   Lambertian, Mirror, Mixture, SoapFilm, ThinGlass, PictureLamp, Glass,
+                   RoughGlass, DispersiveGlass) {
+    const auto keeps = []<typename Over>(const Over&) {
+        CHECK_MESSAGE(detail::keeps_hooks<Over>, detail::type_name<Over>());
+    };
+    keeps(Textured<M, NormalMap>{});
+    keeps(CutOut<M, UvPicture>{});
+    keeps(CutOut<Textured<M, NormalMap>, UvPicture>{});
+    keeps(Textured<CutOut<M, UvPicture>, NormalMap>{});
+    if constexpr (Transparent<M>) {
+        keeps(Nested<M>{});
+        keeps(Nested<Textured<M, NormalMap>>{});
+        keeps(Textured<Nested<M>, NormalMap>{});
+    }
+}
+
+TEST_CASE("survey: a wrapper that hides a hook of its base is not taken for one") {
+    CHECK(detail::keeps_hooks<Lambertian>);
+    CHECK(detail::keeps_hooks<user::Named<Lambertian>>);
+    CHECK_FALSE(detail::keeps_hooks<user::Named<Glass>>);
+    CHECK_FALSE(detail::keeps_hooks<user::Named<Mixture>>);
+    CHECK_FALSE(detail::keeps_hooks<user::Named<Textured<Lambertian, UvPicture>>>);
 }
 
 TEST_CASE("survey: a sigma that looks like degrees is remarked on") {

@@ -64,3 +64,9 @@ ljus_break_it(NAME dispersion-joined HEADER photons/light_paths.hpp TEST dispers
     FROM "require(!Dispersive<M> || list.empty(),"
     TO   "require(true || list.empty(),"
     CASES "dispersion: what is not possible*")
+
+# A texture over glass hides its index at another wavelength.
+ljus_break_it(NAME dispersion-textured HEADER materials/textured.hpp TEST dispersion
+    FROM "return at_wavelength(m.base, nm);"
+    TO   "return at_wavelength(m.base, nm + T(100));"
+    CASES "dispersion: a normal map*")

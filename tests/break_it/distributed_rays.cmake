@@ -134,3 +134,14 @@ ljus_break_it(NAME moving-gathered HEADER inspect/scene_remarks.hpp TEST moving
     FROM "gathered && has_moving(world)"
     TO   "gathered"
     CASES "moving: light of all times*")
+
+# A lamp that moves has the centre of a quad.
+ljus_break_it(NAME moving-center HEADER geometry/moving.hpp TEST moving
+    FROM "return center_sample(moving.shape);"
+    TO   "return center_sample(moving.shape) + ScalarOf<S>(0.5);"
+    CASES "moving: the centre*")
+# The edges of a shape that moves are those of a shape that does not end.
+ljus_break_it(NAME moving-corners HEADER geometry/moving.hpp TEST moving
+    FROM "    return corners_of(moving.shape);"
+    TO   "    return corners_of(translated(moving.shape, moving.displacement));"
+    CASES "moving: half of a disc*")

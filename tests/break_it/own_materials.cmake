@@ -57,3 +57,9 @@ ljus_break_it(NAME own_materials-mirror-word HEADER io/detail/json_textures.hpp
     FROM [[wrap == "mirror" ?]]
     TO   [[wrap == "mirrors" ?]]
     CASES "own materials: pictures in scene*")
+
+# Every normal map counts as flat, and a disc forgets its own.
+ljus_break_it(NAME own_materials-flat HEADER materials/normal_map.hpp TEST own_materials
+    FROM "return color.x == T(0.5) && color.y == T(0.5);"
+    TO   "return color.x <= T(1) && color.y <= T(1);"
+    CASES "own materials: pictures in scene*")

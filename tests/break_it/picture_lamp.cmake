@@ -57,3 +57,9 @@ ljus_break_it(NAME picture_lamp-afar HEADER photons/scene_aim.hpp TEST picture_l
     FROM "flux_leaving(light, point) * (emitted / drawn)"
     TO   "power(light) * (emitted / drawn)"
     CASES "picture lamp: aimed*")
+
+# A texture over a lamp hides the last pixel of its picture.
+ljus_break_it(NAME picture_lamp-textured HEADER materials/textured.hpp TEST picture_lamp
+    FROM "return emission_picture(m.base);"
+    TO   "static auto other = emission_picture(m.base); other.pixels.back() = other.pixels[0]; return other;"
+    CASES "picture lamp: a normal map*")

@@ -46,3 +46,9 @@ ljus_break_it(NAME survey-never-met HEADER inspect/scene_remarks.hpp TEST survey
     FROM "never_met += world.can_be_met(i) ? 0 : 1;"
     TO   "never_met += world.can_be_met(i) ? 1 : 0;"
     CASES "survey: the light that no path carries*")
+
+# A wrapper may hide what its base can do.
+ljus_break_it(NAME survey-hidden-hook HEADER materials/material.hpp TEST survey
+    FROM "all &= own[i].provided ||"
+    TO   "all &= true || own[i].provided ||"
+    CASES "survey: a wrapper that hides*")

@@ -59,10 +59,15 @@ requires(!detail::is_moving<S>)
 /// \name As a shape
 /// \{
 
-/// Intersects a ray with the shape at the ray's time.
+/// Intersects a ray with the shape at the ray's time. Compute selects the arithmetic, if
+/// the shape offers a choice.
 template <typename Compute = void, std::floating_point T, typename S>
 [[nodiscard]] auto intersect(const RayT<T>& ray, const Moving<S>& moving) noexcept {
-    return intersect<Compute>(ray, at_time(moving, ray.time));
+    const S now = at_time(moving, ray.time);
+    if constexpr (requires { intersect<Compute>(ray, now); })
+        return intersect<Compute>(ray, now);
+    else
+        return intersect(ray, now);
 }
 
 /// Whether a ray meets the shape at the ray's time.
@@ -110,6 +115,9 @@ template <typename S>
 /// A box around all positions of the shape: the union of the boxes at time 0 and at
 /// time 1, a few units in the last place too large.
 template <typename S>
+requires requires(const S& shape) {
+    bounds(shape);
+}
 [[nodiscard]] auto bounds(const Moving<S>& moving) noexcept {
     using T = ScalarOf<S>;
     const BoxT<T> first = bounds(moving.shape), last = bounds(at_time(moving, T(1)));
@@ -143,6 +151,21 @@ requires requires(const S& shape, const ShapeHitT<T>& hit, const Vec3T<T>& norma
 [[nodiscard]] Vec3T<T> shading_normal(const Moving<S>& moving, const ShapeHitT<T>& hit,
                                       const Vec3T<T>& geometric) noexcept {
     return shading_normal(moving.shape, hit, geometric);
+}
+
+/// The u for which sample_towards() returns the centre of the shape.
+template <typename S>
+[[nodiscard]] auto center_sample(const Moving<S>& moving) noexcept {
+    return center_sample(moving.shape);
+}
+
+/// The corners of the shape at time 0, where photons are stored.
+template <typename S>
+requires requires(const S& shape) {
+    corners_of(shape);
+}
+[[nodiscard]] auto corners_of(const Moving<S>& moving) noexcept {
+    return corners_of(moving.shape);
 }
 
 /// The area_sums() of the shape.

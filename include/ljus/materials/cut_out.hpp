@@ -32,7 +32,8 @@ template <typename Base, typename Texture, std::floating_point T>
 [[nodiscard]] bool is_open(const Textured<Base, Holes<Texture>>& cut,
                            const Vec3T<T>& position, const Vec2T<T>& uv) noexcept {
     static_assert(
-        !Refractive<std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
+        !Transparent<
+            std::remove_cvref_t<decltype(material_at(cut.base, position, uv))>>,
         "A material with holes must be opaque: a path would get into a transparent "
         "body without crossing its surface.");
     if constexpr (CutOutMaterial<Base>)

@@ -9,6 +9,8 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <type_traits>
 
 #include "ljus/hook.hpp"
 #include "ljus/math/sampling.hpp"
@@ -158,8 +160,8 @@ concept Material = std::floating_point<typename M::Scalar> &&
 };
 
 /// \name A material around another one
-/// A wrapper scatters like its base. Besides check() it needs only the functions that
-/// it adds to the base.
+/// A wrapper scatters like its base. Besides check() it needs the functions that it adds
+/// to the base, and those optional functions of the table above that the base has.
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a
@@ -376,6 +378,24 @@ template <Material M>
     };
 // clang-format on
 }
+
+/// Whether a material has every hook of its base, if it is a wrapper. It needs no
+/// only_specular, and no split() if it has an at_point(), which returns the base.
+template <typename M>
+inline constexpr bool keeps_hooks = true;
+template <MaterialWrapper M>
+inline constexpr bool keeps_hooks<M> = [] {
+    constexpr auto own = material_hooks<M>();
+    constexpr auto base = material_hooks<std::remove_cvref_t<decltype(M::base)>>();
+    bool at_point = false, all = true;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const std::string_view name = own[i].name;
+        at_point |= name == "at_point" && own[i].provided;
+        all &= own[i].provided || !base[i].provided || name == "only_specular" ||
+               (name == "split" && at_point);
+    }
+    return all;
+}();
 
 } // namespace detail
 

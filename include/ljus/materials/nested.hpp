@@ -20,6 +20,8 @@ namespace ljus {
 template <Material Base>
 requires Transparent<Base>
 struct Nested {
+    static_assert(!CutOutMaterial<Base>,
+                  "A material with holes must be opaque, and needs no priority.");
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
     static constexpr bool scatters_as_base = true; ///< Scattering is that of the base.
     static constexpr bool uses_uv = UsesUv<Base>;  ///< True if the base uses uv.

@@ -3,6 +3,8 @@
 /// \file ljus/materials/normal_map.hpp
 /// \brief Materials whose shading normals come from a picture.
 
+#include <algorithm>
+
 #include "ljus/materials/textured.hpp"
 
 namespace ljus {
@@ -32,6 +34,7 @@ using NormalMap = NormalMapT<float>; ///< NormalMapT in float.
 template <typename Base, std::floating_point T>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, NormalMapT<T>>& mapped,
                                  const Vec2T<T>& uv) noexcept {
+    static_assert(!NormalMapped<Base>, "A material has one normal map, not two.");
     const auto& picture = mapped.texture.picture;
     const Vec3T<T> n = T(2) * color_at(picture, Vec3T<T>{T(0)}, uv) - T(1);
     return {direction_on_shape(picture.map, Vec2T<T>{n.x, n.y}), n.z};
@@ -43,6 +46,15 @@ requires NormalMapped<Base>
 [[nodiscard]] Vec3T<T> normal_at(const Textured<Base, Texture>& textured,
                                  const Vec2T<T>& uv) noexcept {
     return normal_at(textured.base, uv);
+}
+
+/// Whether the picture turns any normal: false if red and green are 0.5 in each pixel.
+template <std::floating_point T>
+[[nodiscard]] bool turns_normals(const NormalMapT<T>& map) {
+    const auto& pixels = map.picture.image.pixels;
+    return !std::all_of(pixels.begin(), pixels.end(), [](const RgbT<T>& color) {
+        return color.x == T(0.5) && color.y == T(0.5);
+    });
 }
 
 /// Checks the picture.

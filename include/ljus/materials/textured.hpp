@@ -93,10 +93,23 @@ refractive_index(const Textured<Base, Texture>& m) noexcept {
     return refractive_index(m.base);
 }
 
+/// The base at one wavelength, if it disperses light.
+template <Dispersive Base, typename Texture, std::floating_point T>
+[[nodiscard]] constexpr auto at_wavelength(const Textured<Base, Texture>& m,
+                                           T nm) noexcept {
+    return at_wavelength(m.base, nm);
+}
+
 /// The priority of the base where bodies overlap.
 template <HasPriority Base, typename Texture>
 [[nodiscard]] constexpr int priority(const Textured<Base, Texture>& m) noexcept {
     return priority(m.base);
+}
+
+/// The picture of a base that shows one. The texture does not change it.
+template <ShowsPicture Base, typename Texture>
+[[nodiscard]] const auto& emission_picture(const Textured<Base, Texture>& m) noexcept {
+    return emission_picture(m.base);
 }
 
 /// The emitted radiance of the base, in W/(m^2 sr). The texture does not change it.

@@ -217,6 +217,9 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
     static_assert((std::is_same_v<Scalar, typename P::Scalar> && ...),
                   "A scene's media must have the precision of its shapes.");
     static_assert(sizeof...(M) > 0, "A scene lists at least one type of material.");
+    static_assert((detail::keeps_hooks<M> && ...),
+                  "A material around another one hides an optional function of its "
+                  "base, such as absorption(): write it for the wrapper as well.");
     static_assert(detail::each_once<FirstShape, S...> && detail::each_once<M...> &&
                       detail::each_once<L...> && detail::each_once<P...>,
                   "A scene lists each type once.");

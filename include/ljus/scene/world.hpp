@@ -133,6 +133,18 @@ struct KeptLights<std::tuple<std::vector<L>...>> {
     using Type = std::tuple<std::vector<InSceneT<L>>...>;
 };
 
+/// Whether the normal map of a NormalMapped material turns any normal. Scene files and
+/// mesh files have materials with a flat map, which has no effect.
+template <typename M>
+[[nodiscard]] bool turns_normals_of(const M& m) {
+    if constexpr (requires { turns_normals(m.texture); })
+        return turns_normals(m.texture);
+    else if constexpr (requires { m.base; })
+        return turns_normals_of(m.base);
+    else
+        return true;
+}
+
 template <typename S>
 inline constexpr bool is_scene = false;
 template <typename G, typename M, typename L, typename P>
@@ -479,13 +491,14 @@ private:
         const auto check_list = [&]<typename G>(const std::vector<G>&) {
             if constexpr (!HasTangents<G>)
                 for (const ObjectT<Scalar>& object : objects_[type])
-                    visit_material(object.material, []<typename M>(const M&) {
+                    visit_material(object.material, []<typename M>(const M& m) {
                         if constexpr (NormalMapped<M>)
-                            throw std::invalid_argument(detail::join(
-                                {"a shape of the type ", detail::type_name<G>(),
-                                 " has a normal map, but no texture_tangents() in "
-                                 "which its normals would be; meshes, quads and "
-                                 "triangles have them."}));
+                            if (detail::turns_normals_of(m))
+                                throw std::invalid_argument(detail::join(
+                                    {"a shape of the type ", detail::type_name<G>(),
+                                     " has a normal map, but no texture_tangents() in "
+                                     "which its normals would be; meshes, quads and "
+                                     "triangles have them."}));
                     });
             ++type;
         };
