@@ -64,16 +64,17 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 /// sends more photons. A pilot pass measures the contribution, see pilot_lights(). Each
 /// pilot photon is weighted with the importance of the seen_places() around it. A
 /// lamp whose light the picture does not show, such as one in a closed cupboard, sends
-/// a tenth of the photons that it would send if the shares were proportional to power.
+/// a tenth of the photons that it would send if the shares were proportional to power,
+/// and more if the pass has fewer than 800 photons per lamp.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  The settings to change; shares that they contain are kept.
 /// \param width     Width of the picture, in pixels.
 /// \param height    Height of the picture, in pixels.
 /// \return The settings with `light_shares` for both passes. With fewer than
-///         two lamps, nothing is changed. The settings of a pass with fewer than 800
-///         photons per lamp are not changed.
-/// \cost A twentieth of the photons, and 1024 camera paths.
+///         two lamps, nothing is changed.
+/// \cost A twentieth of the photons, or up to a quarter if there are many lamps, and
+///       1024 camera paths.
 template <AnyWorld W, CameraLike C>
 [[nodiscard, gnu::cold]] PhotonMappingSettings
 share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
@@ -89,8 +90,7 @@ share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
     };
     const auto share = [&](PhotonPassSettings pass, MapType map) {
         pass.gloss_as_mirrors = run.gloss_as_mirrors;
-        const bool measures = pass.light_shares.empty() && pass.shares.empty() &&
-                              affords_pilot(pass.photons, world.light_count());
+        const bool measures = pass.light_shares.empty() && pass.shares.empty();
         return measures ? pilot_lights(world, pass, map, importance)
                         : pass.light_shares;
     };
