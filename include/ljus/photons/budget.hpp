@@ -232,13 +232,13 @@ struct AllAlike {
 } // namespace detail
 
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each light contributes to a map. The share of light k is \f$ (1 - w)\, p_k + w\, a_k
-/// / \sum_j a_j \f$, where w is the pilot_weight() and \f$ p_k \f$ the light's part of
-/// the power. The scatter a_k, as in share_out(), is given by
-/// \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the light, where
-/// \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight. As w is at most
-/// 0.9, the variance is at most ten times that of a choice by power, even if the pilot
-/// misses some light.
+/// each light contributes to a map. The share of light k is
+/// \f$ (1 - w)\, p_k + w\, a_k / \sum_j a_j \f$, where w is the pilot_weight() and
+/// \f$ p_k \f$ the light's part of the power. The scatter a_k, as in share_out(), is
+/// given by \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the
+/// light, where \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight.
+/// As w is at most 0.9, the variance is at most ten times that of a choice by power,
+/// even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                the photons of that pass, 200 to 20 000 per light, but at most a

@@ -522,8 +522,8 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 /// How direct light is found at a surface. If a path continues at a glossy surface, its
 /// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
 /// surfaces after the first diffuse surface, a single shadow ray to each light is
-/// enough, unless nearly specular surfaces count as mirrors. A branch that was split off
-/// at glass and carries less than half of the light needs fewer shadow rays.
+/// enough, unless nearly specular surfaces count as mirrors. A branch that was split
+/// off at glass and carries less than half of the light needs fewer shadow rays.
 /// \param path  The path at the surface.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
