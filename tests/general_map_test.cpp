@@ -643,8 +643,9 @@ TEST_CASE("general map: what the presets ask for") {
     CHECK(draft.gather.tile == 5);
     const auto fast = preset_settings(Preset::fast, 400, 300);
     CHECK(fast.caustics.photons == 84000); // seven tenths of the pixels
-    CHECK(fast.general.photons == 92000);  // 8000 more
+    CHECK(fast.general.photons == 68000);  // half, and 8000 more
     CHECK(fast.shadow_rays == 4);
+    CHECK(fast.roulette_depth == 3);
     CHECK(fast.direct == DirectLight::analytic);
     CHECK(fast.indirect == IndirectLight::cache);
     CHECK(fast.gather.rays == 36);
@@ -682,15 +683,17 @@ TEST_CASE("general map: what the presets ask for") {
         CHECK(pass.numbers == PhotonSampling::random);
     CHECK(draft.irradiance.shadow_rays == 4); // a gather ray is one of 16
     CHECK(fast.irradiance.shadow_rays == 2);
+    CHECK(draft.irradiance.every == 6);
+    CHECK(fast.irradiance.every == 8);
     CHECK(exact.irradiance.shadow_rays == 4);
     const auto rays = [](Preset preset) {
         const PresetRays found = preset_rays(preset);
         return std::array<double, 3>{double(found.first), double(found.more),
                                      found.disagreement};
     };
-    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 1.2});
-    CHECK(rays(Preset::fast) == std::array<double, 3>{1, 16, 1.2});
-    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 1.2});
+    CHECK(rays(Preset::draft) == std::array<double, 3>{1, 0, 1.3});
+    CHECK(rays(Preset::fast) == std::array<double, 3>{1, 16, 1.3});
+    CHECK(rays(Preset::exact) == std::array<double, 3>{64, 0, 1.3});
     CHECK(preset_settings(Preset::draft, 20000, 20000).caustics.photons == 500000);
     CHECK(preset_settings(Preset::fast, 20000, 20000).caustics.photons == 1000000);
     CHECK(detail::gathers(IndirectLight::map));

@@ -188,12 +188,30 @@ TEST_CASE("lamp shares: caustics that nobody sees leave their photons to the oth
     CHECK(seen.caustics.light_shares[1] < 0.11);
 }
 
-TEST_CASE("lamp shares: what is given, or not affordable, stays as it is") {
+TEST_CASE("lamp shares: a pilot of few photons counts little, and biases nothing") {
+    // A quarter of the photons are the pilot's. It finds light of the first lamp alone.
+    const auto world = room_before_sealed(50);
+    for (const auto& [photons, each] :
+         {std::pair{40800, 200.0}, {20400, 100.0}, {6120, 30.0}}) {
+        const auto shares = general_shares(world, settings_of(photons));
+        REQUIRE(shares.size() == 51);
+        const double sight = 9 * each / (9 * each + 200);
+        CHECK(pilot_weight(each) == doctest::Approx(sight));
+        CHECK(shares[0] == doctest::Approx(sight + (1 - sight) / 51).epsilon(1e-3));
+        for (std::size_t i = 1; i < shares.size(); ++i)
+            CHECK(shares[i] == doctest::Approx((1 - sight) / 51).epsilon(0.02));
+    }
+    CHECK(general_shares(world, settings_of(3)).empty()); // a quarter is none
+    CHECK(pilot_weight(0) == 0);
+    CHECK(pilot_weight(1e6) == 0.9);
+    const auto few = general_shares(world, settings_of(6120));
+    CHECK(std::abs(apart(flux_in_room(world, {}), flux_in_room(world, few))) < 5);
+}
+
+TEST_CASE("lamp shares: what is given stays as it is") {
     const auto one = room_before_sealed(0);
     CHECK(general_shares(one, settings_of(41000)).empty());
     const auto world = room_before_sealed(3);
-    CHECK(general_shares(world, settings_of(3199)).empty());
-    CHECK(general_shares(world, settings_of(3200)).size() == 4);
     auto given = settings_of(41000);
     given.general.light_shares = {0.4, 0.3, 0.2, 0.1};
     CHECK(general_shares(world, given) == given.general.light_shares);

@@ -256,7 +256,7 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
             }
         }
         // From the first surface on roulette may end it, but the n^2 of glass is no
-        // reason, and what has split off is in danger at a 16th of what it carries.
+        // reason, and what has split off is in danger at a 64th of what it carries.
         settings.roulette_depth = 1;
         const PhotonMapper short_lived(world, settings);
         int mirrored = 0;
@@ -271,10 +271,35 @@ TEST_CASE("photon mapping: a path goes both ways eight times, and loses nothing"
             for (const auto& line : log.lines)
                 if (split && line.path == "ESL") {
                     ++mirrored;
-                    CHECK(line.value.x == doctest::Approx(std::max(share, 1.0 / 16)));
+                    CHECK(line.value.x == doctest::Approx(std::max(share, 1.0 / 64)));
                 }
         }
-        if (split) CHECK(mirrored == 400); // it carries more than a 16th
+        if (split) CHECK(mirrored == 400); // it carries more than a 64th
+    }
+}
+
+TEST_CASE("photon mapping: faint branches of split paths send few shadow rays") {
+    BallRoom room;
+    room.add(Sphere{.radius = 100}, room.add(Lambertian{}), Rgb{1}, true);
+    const World world(std::move(room));
+    const auto rays = [&](bool split, const PathState& path) {
+        const PhotonMapper mapper(world, {.shadow_rays = 4, .split_glass = split});
+        return detail::direct_light_at(mapper, path, Lambertian{}, Lobes::all).rays;
+    };
+    // The largest channel counts, without the n^2 of glass around the eye.
+    for (const auto& [carried, scale, count] : {std::tuple{1.0f, 1.0f, 4},
+                                                {0.5f, 1.0f, 4},
+                                                {0.3f, 1.0f, 3},
+                                                {0.2f, 1.0f, 2},
+                                                {0.04f, 1.0f, 1},
+                                                {0.0f, 1.0f, 1},
+                                                {0.4f, 2.0f, 2},
+                                                {2.0f, 1.0f, 4}}) {
+        PathState path{.throughput{0, carried, 0}, .eta_scale = scale};
+        CHECK(rays(true, path) == count);
+        CHECK(rays(false, path) == 4);
+        path.met_diffuse = true; // no branch is split off any more
+        CHECK(rays(true, path) == 4);
     }
 }
 

@@ -277,7 +277,8 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
         r.adaptive.more = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
         // The default number of shadow rays is kept, not that of the preset.
-        r.photon.irradiance = {.least = r.photon.irradiance.least};
+        r.photon.irradiance = {.every = r.photon.irradiance.every,
+                               .least = r.photon.irradiance.least};
         if (fog && r.photon.indirect == ljus::IndirectLight::cache)
             r.photon.indirect = ljus::IndirectLight::photons;
         line.give_again();

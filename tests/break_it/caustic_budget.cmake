@@ -90,14 +90,8 @@ ljus_break_it(NAME budget-pilot-shadows HEADER photons/budget.hpp TEST caustic_b
     TO   "return p.kind == PhotonKind::caustic;"
     CASES "caustic_budget: the pilot's numbers*")
 
-# A preset sends 200 photons from each of very many lamps.
-ljus_break_it(NAME budget-lights-price HEADER render/budgeting.hpp TEST caustic_budget
-    FROM "settings.share_lights && affordable"
-    TO   "settings.share_lights && (affordable || lights > 0)"
-    CASES "caustic_budget: lamps that nobody sees*")
-
 # Only a budget asks which lamps matter.
 ljus_break_it(NAME budget-lights-preset HEADER render/budgeting.hpp TEST caustic_budget
-    FROM "measures || (settings.share_lights && affordable)"
-    TO   "measures || (false && affordable)"
+    FROM "measures || settings.share_lights"
+    TO   "measures"
     CASES "caustic_budget: lamps that nobody sees*,caustic_budget: who has one lamp*")

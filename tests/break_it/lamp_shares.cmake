@@ -6,8 +6,8 @@ ljus_break_it(NAME lamp_shares-weight HEADER photons/budget.hpp TEST lamp_shares
 
 # A lamp that the pilot misses gets nothing.
 ljus_break_it(NAME lamp_shares-floor HEADER photons/budget.hpp TEST lamp_shares
-    FROM "0.1 * probability_of<double>(world.light_choice(), k) +"
-    TO   "0 * probability_of<double>(world.light_choice(), k) +"
+    FROM "std::min(0.9, photons / (photons + 200.0 / 9))"
+    TO   "std::min(1.0, photons / (photons + 200.0 / 9) + 0.1)"
     CASES "lamp shares: fifty*")
 
 # Camera paths end at the mirror.
@@ -22,8 +22,14 @@ ljus_break_it(NAME lamp_shares-next HEADER render/lamp_shares.hpp TEST lamp_shar
     TO   "if (++matt == 1) return false;"
     CASES "lamp shares: what a mirror*")
 
-# The pilot is sent, whether or not it costs more than it saves.
-ljus_break_it(NAME lamp_shares-affords HEADER photons/budget.hpp TEST lamp_shares
-    FROM "return 800 * static_cast<long long>(lights) <= photons;"
-    TO   "return 0 * photons + static_cast<long long>(lights) >= 0;"
-    CASES "lamp shares: what is given*")
+# A pilot of very few photons counts as much as any other.
+ljus_break_it(NAME lamp_shares-certain HEADER photons/budget.hpp TEST lamp_shares
+    FROM "std::min(0.9, photons / (photons + 200.0 / 9))"
+    TO   "std::min(0.9, photons)"
+    CASES "lamp shares: a pilot of few*")
+
+# A pilot costs more photons than the picture has.
+ljus_break_it(NAME lamp_shares-price HEADER photons/budget.hpp TEST lamp_shares
+    FROM "std::min(200 * lights, pass.photons / 4)"
+    TO   "200 * lights"
+    CASES "lamp shares: a pilot of few*")

@@ -147,3 +147,10 @@ ljus_break_it(NAME photon-mapping-caustics-on-gloss HEADER render/passes.hpp TES
     FROM "!gloss || found.specular > 0}"
     TO   "!gloss}"
     CASES "survey: narrow gloss*")
+
+# The faintest branch at glass sends as many shadow rays as the brightest.
+ljus_break_it(NAME photon-mapping-faint HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "std::min(T(1), 2 * carried)"
+    TO   "std::min(T(1), 2 + carried)"
+    CASES "photon mapping: faint branches*")

@@ -211,11 +211,15 @@ pilot_caustics(const W& world, const PhotonPassSettings& pass, T radius,
     return pilots;
 }
 
-/// Whether a pass has enough photons for pilot_lights(): at least 800 per light.
-[[nodiscard]] inline bool affords_pilot(long long photons,
-                                        std::size_t lights) noexcept {
-    return 800 * static_cast<long long>(lights) <= photons;
+/// The weight of a pilot in the shares of lights, see pilot_lights(): 0.9 from 200
+/// photons per light upwards, and less if the pilot has fewer, because its shares are
+/// then uncertain. At 22 photons per light it is a half.
+/// \param photons  The pilot's photons per light, at least 0.
+// [pilot_weight]
+[[nodiscard]] inline double pilot_weight(double photons) noexcept {
+    return std::min(0.9, photons / (photons + 200.0 / 9));
 }
+// [pilot_weight]
 
 namespace detail {
 
@@ -229,15 +233,17 @@ struct AllAlike {
 } // namespace detail
 
 /// Traces a few photons from every light, the same number from each, to measure what
-/// each light contributes to a map. Nine tenths of the photons are distributed in
-/// proportion to the scatter a_k of light k, given by
-/// \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the light, where
-/// \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight. One tenth is
-/// distributed in proportion to power. The variance is therefore at most ten times that
-/// of a choice by power, even if the pilot misses some light.
+/// each light contributes to a map. The share of light k is
+/// \f$ (1 - w)\, p_k + w\, a_k / \sum_j a_j \f$, where w is the pilot_weight() and
+/// \f$ p_k \f$ is the fraction of the power that light k emits. The scatter a_k is
+/// given by \f$ a_k^2 = \sum_i (w_i \varphi_i)^2 \f$ over the stored photons of the
+/// light, where \f$ \varphi_i \f$ is the flux of photon i and \f$ w_i \f$ its weight.
+/// As w is at most 0.9, the variance is at most ten times that of a choice by power,
+/// even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, 200 to 20 000 per light.
+///                the photons of that pass, 200 to 20 000 per light, but at most a
+///                quarter of the photons for less than 200 per light.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for
@@ -248,8 +254,9 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
                                                MapType map = MapType::caustics,
                                                const Weight& weight = {}) {
     const auto lights = static_cast<long long>(world.light_count());
-    if (lights < 2) return {};
-    pass.photons = std::clamp(pass.photons / 20, 200 * lights, 20000 * lights);
+    if (lights < 2 || pass.photons < 4) return {};
+    const long long least = std::min(200 * lights, pass.photons / 4);
+    pass.photons = std::clamp(pass.photons / 20, least, 20000 * lights);
     pass.give_up = pass.photons;
     pass.equal_lights = true;
     pass.shadow_photons = false;
@@ -264,10 +271,12 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
     double sum = 0;
     for (double& a : scatter) sum += a = std::sqrt(a);
     if (!(sum > 0)) return {};
+    const double weight_of_pilot = pilot_weight(double(pass.photons) / double(lights));
     std::vector<double> shares;
     for (std::uint32_t k = 0; k < scatter.size(); ++k)
-        shares.push_back(0.1 * probability_of<double>(world.light_choice(), k) +
-                         0.9 * (scatter[k] / sum));
+        shares.push_back((1 - weight_of_pilot) *
+                             probability_of<double>(world.light_choice(), k) +
+                         weight_of_pilot * (scatter[k] / sum));
     return shares;
 }
 

@@ -32,9 +32,7 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
         !settings.caustics.light_shares.empty() || !settings.caustics.shares.empty();
     const bool measures =
         budget != CausticBudget::as_seen && budget != CausticBudget::equal;
-    const std::size_t lights = world.light_count();
-    const bool affordable = affords_pilot(settings.caustics.photons, lights);
-    if (given || !(measures || (settings.share_lights && affordable)))
+    if (given || !(measures || settings.share_lights))
         return settings.caustics.light_shares;
     return pilot_lights(world, settings.caustics);
 }

@@ -63,14 +63,14 @@ template <AnyWorld W, CameraLike C, std::floating_point T = typename W::Scalar>
 /// sends more photons. pilot_lights() measures the contribution; each pilot photon is
 /// weighted with the importance of the seen_places() around it. A lamp whose light the
 /// picture does not show sends a tenth of the photons that it would send in proportion
-/// to its power.
+/// to its power, and more if a pass has fewer than 800 photons per lamp.
 /// \param world     The closed scene.
 /// \param camera    Any camera.
 /// \param settings  The settings to change; shares that they contain are kept.
 /// \param width     Width of the picture, in pixels.
 /// \param height    Height of the picture, in pixels.
-/// \return The settings with `light_shares` for each pass with at least 800 photons
-///         per lamp; unchanged with fewer than two lamps.
+/// \return The settings with `light_shares` for both passes; unchanged with fewer than
+///         two lamps.
 /// \cost A twentieth of the photons, or up to a quarter with many lamps; and 1024
 ///       camera paths.
 template <AnyWorld W, CameraLike C>
@@ -88,8 +88,7 @@ share_by_sight(const W& world, const C& camera, PhotonMappingSettings settings,
     };
     const auto share = [&](PhotonPassSettings pass, MapType map) {
         pass.gloss_as_mirrors = run.gloss_as_mirrors;
-        const bool measures = pass.light_shares.empty() && pass.shares.empty() &&
-                              affords_pilot(pass.photons, world.light_count());
+        const bool measures = pass.light_shares.empty() && pass.shares.empty();
         return measures ? pilot_lights(world, pass, map, importance)
                         : pass.light_shares;
     };

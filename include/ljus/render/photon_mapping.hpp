@@ -495,7 +495,8 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 /// How direct light is found at a surface. If a path continues at a glossy surface, its
 /// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
 /// surfaces after the first diffuse surface, a single shadow ray to each light is
-/// enough, unless nearly specular surfaces count as mirrors.
+/// enough, unless nearly specular surfaces count as mirrors. A branch that was split
+/// off at glass and carries less than half of the light needs fewer shadow rays.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] DirectLightSettings direct_light_at(const Mapper& mapper,
@@ -503,6 +504,11 @@ template <typename Mapper, std::floating_point T, Material M>
                                                   const M& material, Lobes open) {
     const PhotonMappingSettings& settings = mapper.settings();
     DirectLightSettings how{settings.direct, settings.shadow_rays};
+    if (settings.split_glass && !path.met_diffuse) {
+        const T carried = max_component(path.throughput) / path.eta_scale;
+        how.rays =
+            std::max(1, int(std::ceil(std::min(T(1), 2 * carried) * T(how.rays))));
+    }
     if (has(lobes(material), Lobes::diffuse) || how.how == DirectLight::sampled)
         return how;
     if (path.met_diffuse && !mapper.passes().gloss_as_mirrors) how.rays = 1;
@@ -634,7 +640,7 @@ inline constexpr std::size_t max_splits = 8;
 /// Factor of the survival probability of a branch that was split off at glass. Without
 /// the factor a faint branch would rarely survive roulette, and would then be bright
 /// noise. The expected value does not depend on the factor.
-inline constexpr int split_survival = 16;
+inline constexpr int split_survival = 64;
 
 } // namespace detail
 

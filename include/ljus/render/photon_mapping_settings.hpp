@@ -172,15 +172,21 @@ enum class Preset : std::uint8_t {
     settings.indirect = IndirectLight::cache;
     settings.share_lights = true;
     settings.lone_radius = 4;
-    const long long photons =
-        std::clamp(draft ? pixels / 4 : pixels * 7 / 10, 10'000LL, 1'000'000LL);
+    settings.roulette_depth = 3;
+    const auto within = [](long long photons) {
+        return std::clamp(photons, 10'000LL, 1'000'000LL);
+    };
     // Small pictures need more photons per pixel, or blotches cover much of the
     // picture.
-    settings.general.photons = photons + (draft ? 0 : 8000);
-    settings.caustics.photons = photons / (draft ? 2 : 1);
+    settings.general.photons = draft ? within(pixels / 4) : within(pixels / 2) + 8000;
+    settings.caustics.photons =
+        draft ? within(pixels / 4) / 2 : within(pixels * 7 / 10);
     settings.gather.rays = draft ? 16 : 36;
     settings.gather.tile = draft ? 5 : 4;
-    if (!draft) settings.irradiance.shadow_rays = 2; // 36 gather rays are averaged
+    if (!draft) { // 36 gather rays are averaged
+        settings.irradiance.every = 8;
+        settings.irradiance.shadow_rays = 2;
+    }
     // The disc of an estimate then covers at most 1/32 of the surfaces with indirect
     // light.
     settings.irradiance.least = 32 * int(settings.irradiance.nearest);
@@ -196,7 +202,7 @@ struct PresetRays {
     /// If the relative standard deviation of the first rays around a pixel is at least
     /// this number, the pixel gets all `more` rays. If it is smaller, the number of
     /// further rays is proportional to it.
-    double disagreement = 1.2;
+    double disagreement = 1.3;
 };
 
 /// The rays of a preset, for RenderSettings::samples and render_adaptive().
