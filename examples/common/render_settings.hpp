@@ -276,9 +276,6 @@ inline void choose_settings(CommandLine& line, RenderRequest& r, int width, int 
         options = line.fill({width, height, rays.first});
         r.adaptive.more = rays.more;
         r.photon = preset_settings(*r.preset, options.width, options.height);
-        // The default number of shadow rays is kept, not that of the preset.
-        r.photon.irradiance = {.every = r.photon.irradiance.every,
-                               .least = r.photon.irradiance.least};
         if (fog && r.photon.indirect == ljus::IndirectLight::cache)
             r.photon.indirect = ljus::IndirectLight::photons;
         line.give_again();
