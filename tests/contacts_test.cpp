@@ -738,7 +738,8 @@ TEST_CASE("contacts: the neighbours of an object are found by a tree") {
     bool right = true;
     for (std::uint32_t i = 0; i < count; ++i) {
         std::vector<std::uint32_t> found, expected;
-        right &= tree.each_overlap(i, budget, [&](auto k) { found.push_back(k); });
+        const auto list = [&](std::uint32_t k) { found.push_back(k); };
+        right &= tree.each_overlap(i, budget, list);
         if (i > 0 && i % 3 != 2) expected.push_back(i - 1);
         if (i + 1 < count && i % 3 != 1) expected.push_back(i + 1);
         std::sort(found.begin(), found.end());
@@ -746,7 +747,8 @@ TEST_CASE("contacts: the neighbours of an object are found by a tree") {
     }
     CHECK(right);
     long long spent = 0;
-    CHECK(!tree.each_overlap(0, spent, [](auto) {}));
+    const auto ignore = [](std::uint32_t) {};
+    CHECK(!tree.each_overlap(0, spent, ignore));
 }
 
 TEST_CASE("contacts: the survey says what lies in one place, and which rule decides") {

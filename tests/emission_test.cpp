@@ -1012,7 +1012,7 @@ TEST_CASE("emission: what has no size is no target, first or last") {
     const auto aim_of = [&](ObjectId id) { return Aim{sizes[id.index], id.index}; };
     int second = 0;
     for (int i = 0; i < 1000; ++i) {
-        const auto chosen = detail::choose_target(targets, aim_of, i / 1000.0);
+        const auto chosen = detail::choose_target<Aim>(targets, aim_of, i / 1000.0);
         REQUIRE(chosen);
         CHECK(chosen->sum == 4);
         CHECK(chosen->at.of == chosen->target.index);
@@ -1021,7 +1021,7 @@ TEST_CASE("emission: what has no size is no target, first or last") {
     }
     CHECK(second == doctest::Approx(750).epsilon(2e-3));
     const auto none = [](ObjectId) { return Aim{}; };
-    CHECK_FALSE(detail::choose_target(targets, none, 0.5));
+    CHECK_FALSE(detail::choose_target<Aim>(targets, none, 0.5));
 }
 
 TEST_CASE("emission: from within a bound a lamp aims at all that it can shine on") {

@@ -296,11 +296,12 @@ TEST_CASE("photon_map: estimates that are answered together are those one by one
                     throughput * ljus::estimate_radiance(map, surface, matt, surface.wo,
                                                          gather, kinds, summed_each);
             }
-            ljus::detail::estimates_together<float>(
-                map, places, gather, kinds, summed, room,
-                [&](const auto& place, const Rgb& light) {
-                    together[place.item] += place.throughput * light;
-                });
+            const auto add = [&](const ljus::detail::EstimatePlaceT<float>& place,
+                                 const Rgb& light) {
+                together[place.item] += place.throughput * light;
+            };
+            ljus::detail::estimates_together<float>(map, places, gather, kinds, summed,
+                                                    room, add);
             CAPTURE(count);
             REQUIRE(summed == summed_each);
             for (std::size_t i = 0; i < 200; ++i) REQUIRE(together[i] == each[i]);

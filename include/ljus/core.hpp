@@ -56,6 +56,20 @@ LJUS_CORE_EXTERN template std::optional<ShapeHitT<float>> intersect(const Ray&,
                                                                     const Mesh&);
 LJUS_CORE_EXTERN template bool meets(const Ray&, const Mesh&);
 
+// Shapes and lamps.
+LJUS_CORE_EXTERN template void check(const Quad&);
+LJUS_CORE_EXTERN template Box bounds(const Quad&);
+LJUS_CORE_EXTERN template Sphere bounding_sphere(const Quad&);
+LJUS_CORE_EXTERN template LampT<float> detail::make_lamp(const Quad&, const Rgb&, bool);
+LJUS_CORE_EXTERN template LampT<float> detail::make_lamp(const Sphere&, const Rgb&,
+                                                         bool);
+LJUS_CORE_EXTERN template SurfacePointT<float> emission_point(const AreaLightT<Quad>&,
+                                                              const Vec2&, float);
+LJUS_CORE_EXTERN template SurfacePointT<float> emission_point(const AreaLightT<Sphere>&,
+                                                              const Vec2&, float);
+LJUS_CORE_EXTERN template std::optional<float>
+form_factor_from(const Vec3&, const Vec3&, const Quad&, bool) noexcept;
+
 // Paths.
 LJUS_CORE_EXTERN template SeenPointT<float> sample_towards(const Sphere&, const Vec3&,
                                                            const Vec2&);
@@ -67,6 +81,18 @@ LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const Mirror&, const Vec3&, Transport, Lobes);
 LJUS_CORE_EXTERN template std::optional<ScatteredT<float>>
 scatter(const VertexT<float>&, const Glass&, const Vec3&, Transport, Lobes);
+LJUS_CORE_EXTERN template std::optional<BsdfSampleT<float>>
+sample(const Lambertian&, const Vec3&, const Vec3&, Transport, Lobes) noexcept;
+LJUS_CORE_EXTERN template detail::GlassBoundaryT<float>
+detail::boundary(const Glass&, const Vec3&, Transport) noexcept;
+namespace detail {
+LJUS_CORE_EXTERN template void follow(PathStateT<float>&, const VertexT<float>&,
+                                      const Lambertian&, const BsdfSampleT<float>&,
+                                      const Vec3&) noexcept;
+LJUS_CORE_EXTERN template void follow(PathStateT<float>&, const VertexT<float>&,
+                                      const Glass&, const BsdfSampleT<float>&,
+                                      const Vec3&) noexcept;
+} // namespace detail
 LJUS_CORE_EXTERN template std::optional<PathStateT<float>>
 split_path(PathStateT<float>&, const VertexT<float>&, const Glass&);
 
@@ -90,6 +116,21 @@ LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<
 LJUS_CORE_EXTERN template bool scatter_photon(PathStateT<float>&, const VertexT<float>&,
                                               const Glass&, MapType, SobolStream&,
                                               FluxAudit&, bool);
+LJUS_CORE_EXTERN template std::optional<ChosenTargetT<AimT<float>>>
+choose_target(std::span<const ObjectId>, FunctionRef<AimT<float>(ObjectId)>, float);
+LJUS_CORE_EXTERN template LeavingPhotonT<float>
+emit_into(const AreaLightT<Quad>&, const Sphere&, const Vec2&, Vec2, float);
+LJUS_CORE_EXTERN template LeavingPhotonT<float>
+emit_into(const AreaLightT<Sphere>&, const Sphere&, const Vec2&, Vec2, float);
+LJUS_CORE_EXTERN template void keep_kinds(PhotonPartsT<float>&, PhotonKinds);
+LJUS_CORE_EXTERN template long long count_of(const PhotonPartsT<float>&, PhotonKind);
+LJUS_CORE_EXTERN template std::string
+radius_remark(std::string_view, const DensityEstimateSettings&, const PhotonMap&);
+LJUS_CORE_EXTERN template void
+estimates_together(const PhotonMap&, std::span<const EstimatePlaceT<float>>,
+                   const DensityEstimateSettings&, PhotonKinds, std::uint64_t&,
+                   BallBlocks&,
+                   FunctionRef<void(const EstimatePlaceT<float>&, const Rgb&)>);
 LJUS_CORE_EXTERN template Sphere sphere_around(const std::vector<Sphere>&);
 LJUS_CORE_EXTERN template PhotonMap map_of_parts(PhotonPartsT<float>, int);
 } // namespace detail

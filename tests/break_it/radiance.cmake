@@ -70,6 +70,6 @@ ljus_break_it(NAME radiance-squares HEADER render/detail/sample_sums.hpp TEST re
 
 # Shadow photons of a map made by hand shine, if many samples ask together.
 ljus_break_it(NAME radiance-later-kinds HEADER render/detail/caustics_batch.hpp TEST render
-    FROM "light_kinds, counts.map_photons, found,"
-    TO   "all_kinds, counts.map_photons, found,"
+    FROM "places, estimate, light_kinds,"
+    TO   "places, estimate, all_kinds,"
     CASES "render: of a caustics map*")

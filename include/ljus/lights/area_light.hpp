@@ -52,8 +52,8 @@ inline constexpr bool has_area_sums = requires(const S& shape) {
 /// Precomputes the data of a lamp.
 /// \throws std::invalid_argument  if its area or its flux is 0 or not finite.
 template <Shape S, std::floating_point T>
-[[nodiscard]] LampT<T> make_lamp(const S& shape, const RgbT<T>& radiance,
-                                 bool inside_out) {
+[[nodiscard, gnu::cold]] LampT<T> make_lamp(const S& shape, const RgbT<T>& radiance,
+                                            bool inside_out) {
     LampT<T> lamp{.radiance = radiance, .area = area(shape), .inside_out = inside_out};
     require_positive("the area of a light", lamp.area);
     if constexpr (is_plane<S>) lamp.normal = normal(shape);

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "ljus/function_ref.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/photons/photon_path.hpp"
 
@@ -120,11 +121,11 @@ struct ChosenTargetT {
 ///                  excludes the target.
 /// \param u_target  In [0, 1).
 /// \return The target; nothing if all weights are 0.
-template <std::floating_point T, typename AimOf>
-[[nodiscard]] auto choose_target(std::span<const ObjectId> targets, AimOf aim_of,
-                                 T u_target) {
-    using Chosen = ChosenTargetT<decltype(aim_of(ObjectId{}))>;
-    Chosen chosen;
+template <typename Aim, std::floating_point T>
+[[nodiscard]] std::optional<ChosenTargetT<Aim>>
+choose_target(std::span<const ObjectId> targets, FunctionRef<Aim(ObjectId)> aim_of,
+              T u_target) {
+    ChosenTargetT<Aim> chosen;
     // Reservoir sampling: a target replaces the chosen one with a probability that is
     // its weight over the sum of the weights so far. u is then remapped to [0, 1).
     for (const ObjectId candidate : targets) {
@@ -140,7 +141,7 @@ template <std::floating_point T, typename AimOf>
             u_target = (u_target - share) / (T(1) - share);
         }
     }
-    return chosen.sum > T(0) ? std::optional<Chosen>(chosen) : std::nullopt;
+    return chosen.sum > T(0) ? std::optional(chosen) : std::nullopt;
 }
 
 template <std::floating_point T>
@@ -179,7 +180,7 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
             id, [](const auto& shape) { return bounding_sphere(shape); });
         return Disc{bound, disc_area(bound.radius)};
     };
-    const auto aimed = choose_target(targets, disc_of, u.u_target);
+    const auto aimed = choose_target<Disc>(targets, disc_of, u.u_target);
     if (!aimed) return std::nullopt;
     const SphereT<T>& bound = aimed->at.bound;
     const ArrivalT<T> arrival = sample_arrival(light, u.u_direction);
@@ -199,7 +200,7 @@ template <AnyWorld W, std::floating_point T>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
            std::span<const ObjectId> targets, const AimNumbersT<T>& u) {
     const auto aim_of = [&](ObjectId id) { return aim_at(world, emission, from, id); };
-    const auto chosen = choose_target(targets, aim_of, u.u_target);
+    const auto chosen = choose_target<AimT<T>>(targets, aim_of, u.u_target);
     if (!chosen) return std::nullopt;
     const AimT<T>& at = chosen->at;
     AimedDirectionT<T> aimed{.target = chosen->target};

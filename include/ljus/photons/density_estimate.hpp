@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "ljus/function_ref.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/irradiance_estimate.hpp"
@@ -17,13 +18,11 @@ namespace ljus {
 
 namespace detail {
 
-/// Whether an estimate processes eight photons at a time. It does so on a Lambertian
-/// surface, unless the square of the radius is outside the range of float.
-template <typename Material, typename K>
-[[nodiscard]] constexpr bool in_lanes(const DensityEstimateOf<K>& gather) noexcept {
-    return std::same_as<Material, LambertianT<typename Material::Scalar>> &&
-           1e-15f < gather.radius && gather.radius < 1e15f;
-}
+/// Whether an estimate processes eight photons at a time, as it does on a Lambertian
+/// surface.
+template <typename Material>
+inline constexpr bool in_lanes =
+    std::same_as<Material, LambertianT<typename Material::Scalar>>;
 
 } // namespace detail
 
@@ -102,15 +101,17 @@ template <std::floating_point T, typename Material, KernelLike<T> K = Kernel>
             detail::sum_of_nearest(map, surface.point, gather, kinds, gathered, factor);
         return detail::per_area<T>(sum, radius2);
     }
-    if (!detail::in_lanes<Material>(gather))
+    if constexpr (detail::in_lanes<Material>) {
+        // On a Lambertian surface the radiance is the irradiance times the BRDF.
+        const Vec3T<T> side = std::copysign(T(1), wo.z) * surface.frame.normal;
+        const auto [flux, radius2] =
+            detail::flux_within(map, surface.point, side, gather, kinds, gathered);
+        return detail::per_area<T>(RgbT<double>(evaluate(material, wo, wo)) * flux,
+                                   radius2);
+    } else {
         return estimate_radiance_plain(map, surface, material, wo, gather, kinds,
                                        gathered);
-    // On a Lambertian surface the radiance is the irradiance times the BRDF.
-    const Vec3T<T> side = std::copysign(T(1), wo.z) * surface.frame.normal;
-    const auto [flux, radius2] =
-        detail::flux_within(map, surface.point, side, gather, kinds, gathered);
-    return detail::per_area<T>(RgbT<double>(evaluate(material, wo, wo)) * flux,
-                               radius2);
+    }
 }
 
 namespace detail {
@@ -143,16 +144,17 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 
 /// Computes estimate_radiance() at many points, with the same results to the last bit.
 /// It is faster, because the waits for memory overlap.
-/// \param gather    The settings. They must satisfy in_lanes(); `nearest` must be 0.
+/// \param gather    The settings. `nearest` must be 0.
 /// \param gathered  A counter. The number of photons in the discs is added to it.
 /// \param found     A buffer for the search, which can be used again.
 /// \param give      Called as give(place, radiance), in the order of the requests. A
 ///                  request without photons is left out.
-template <std::floating_point T, KernelLike<T> K, typename Give>
-void estimates_together(const PhotonMapT<T>& map,
-                        std::span<const EstimatePlaceT<T>> places,
-                        const DensityEstimateOf<K>& gather, PhotonKinds kinds,
-                        std::uint64_t& gathered, BallBlocks& found, Give give) {
+template <std::floating_point T, KernelLike<T> K>
+void estimates_together(
+    const PhotonMapT<T>& map, std::span<const EstimatePlaceT<T>> places,
+    const DensityEstimateOf<K>& gather, PhotonKinds kinds, std::uint64_t& gathered,
+    BallBlocks& found,
+    FunctionRef<void(const EstimatePlaceT<T>&, const RgbT<T>&)> give) {
     const T radius = T(gather.radius);
     const double r2 = double(gather.radius) * double(gather.radius);
     const std::span<const Lanes3T<T>> blocks = map.tree.blocks();

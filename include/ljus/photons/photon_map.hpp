@@ -51,10 +51,9 @@ template <std::floating_point T, typename Each>
         items.add(photon.position);
         records.add(photon);
     });
-    PhotonMapT<T> map;
-    map.tree = KdTree8T<T>(std::move(items), threads);
-    map.records = records.sorted(map.tree.point_ids(), threads);
-    return map;
+    KdTree8T<T> tree(std::move(items), threads);
+    auto sorted = records.sorted(tree.point_ids(), threads);
+    return {std::move(tree), std::move(sorted)};
 }
 
 /// Builds a map, and frees the given lists during the construction.

@@ -165,6 +165,7 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
     const auto sphere = lit_sphere(world);
     if (!sphere) return aim;
     aim.sphere = *sphere;
+    aim.is_aimed.resize(world.light_count());
     double before = 0, sum = 0;
     for (std::uint32_t i = 0; i < world.light_count(); ++i) {
         const auto part =
@@ -173,7 +174,7 @@ aim_at_scene(const W& world, const LightChoice& choice, bool by_power = true) {
                     return detail::part_of_flux_in(world, l, *sphere);
                 return std::nullopt;
             });
-        aim.is_aimed.push_back(part ? 1 : 0);
+        aim.is_aimed[i] = part ? 1 : 0;
         sum += (choice.cumulative[i] - before) * part.value_or(1.0);
         before = choice.cumulative[i];
         if (by_power) aim.choice.cumulative[i] = sum;

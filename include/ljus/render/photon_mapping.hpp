@@ -307,10 +307,11 @@ public:
     /// \throws std::invalid_argument  if a setting is out of range, needs an ability
     ///         that is not listed, or is not allowed with fog.
     [[gnu::cold]] explicit PhotonMapper(WorldRef<W> world,
-                                        const PhotonMappingSettings& settings = {},
+                                        PhotonMappingSettings settings = {},
                                         Abilities<X...> = {})
-        : world_(world), settings_(checked(world.get(), settings)),
-          passes_(choose_passes(needs(world.get()), settings)) {
+        : world_(world), settings_(std::move(settings)) {
+        require_allowed();
+        passes_ = choose_passes(needs(world.get()), settings_);
         settings_.caustics.gloss_as_mirrors = settings_.general.gloss_as_mirrors =
             passes_.gloss_as_mirrors;
         if constexpr (has<Budgeting>)
@@ -429,13 +430,17 @@ private:
         else if (passes_.general_map && !passes_.irradiance)
             maps_.remarks += detail::radius_remark(
                 "general_estimate", settings_.general_estimate, maps_.general);
+        check(settings_.caustics_estimate); // a chosen radius may be out of range
+        check(settings_.general_estimate);
     }
 
-    [[gnu::cold]] static const PhotonMappingSettings&
-    checked([[maybe_unused]] const W& world, const PhotonMappingSettings& settings) {
+    // Refuses settings that are out of range, or not allowed here.
+    [[gnu::cold]] void require_allowed() const {
+        const PhotonMappingSettings& settings = settings_;
         check(settings);
         if constexpr (W::lists_fog)
-            if (const auto why = detail::refused_in_fog(world, settings); !why.empty())
+            if (const auto why = detail::refused_in_fog(world(), settings);
+                !why.empty())
                 throw std::invalid_argument(why + ".");
         const auto require_ability = [](bool listed, bool asked, const char* what,
                                         const char* ability) {
@@ -455,12 +460,11 @@ private:
                             settings.caustics.shares.empty(),
                         "a budget of caustic photons",
                         "Budgeting> of ljus/render/budgeting.hpp.");
-        return settings;
     }
 
     WorldRef<W> world_;
     PhotonMappingSettings settings_;
-    Passes passes_;
+    Passes passes_{};
     bool radius_is_chosen_ = false; // for the caustics map
     PhotonMapsT<Scalar> maps_{};
     std::tuple<typename detail::StateOf<X, Scalar>::Type...> states_{};
@@ -668,7 +672,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                                Context& context) {
     const PhotonMappingSettings& settings = mapper.settings();
     RgbT<T> sum{T(0)};
-    std::vector<PathStateT<T>> branches; // split off at glass; each may split again
+    // The branches that split off at glass. Each may split again.
+    detail::GrowingArray<PathStateT<T>> branches;
     const auto follow_path = [&](PathStateT<T> path) {
         const RadianceSum add{sum, path.throughput, context.log};
         bool gloss_mirrors = false; // nearly specular gloss is an S

@@ -100,7 +100,10 @@ struct PhotonMappingSettings {
 
 /// Checks the settings.
 /// \throws std::invalid_argument  if a setting is out of range.
-[[gnu::cold]] inline void check(const PhotonMappingSettings& settings) {
+[[gnu::cold]] LJUS_CORE_INLINE void check(const PhotonMappingSettings& settings);
+
+#ifndef LJUS_CORE // otherwise defined in ljus::core
+LJUS_CORE_INLINE void check(const PhotonMappingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
     require_at_least("shadow_rays", settings.shadow_rays, 1);
     require_at_least("caustics.photons", settings.caustics.photons, 0);
@@ -124,6 +127,7 @@ struct PhotonMappingSettings {
     check(settings.skip);
     check(settings.fog_estimate);
 }
+#endif
 
 namespace detail {
 

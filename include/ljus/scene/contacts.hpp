@@ -102,7 +102,7 @@ struct Contacts {
     BoxT<double> box{};   ///< A box around all places that several objects share.
     bool complete = true; ///< False if more objects overlap than can be compared.
     /// For each type of shape, the number of objects of the types before it.
-    std::vector<std::uint32_t> first{};
+    detail::GrowingArray<std::uint32_t> first{};
     /// The position in `objects` of each object of the scene, or no_contact.
     std::vector<std::uint32_t> position{};
 
@@ -296,8 +296,8 @@ public:
     /// Calls f(k) for each box k that overlaps box i and has a different look. The
     /// budget is the number of nodes that may still be visited.
     /// \return False if the budget is spent.
-    template <typename F>
-    bool each_overlap(std::uint32_t i, long long& budget, F&& f) const {
+    bool each_overlap(std::uint32_t i, long long& budget,
+                      FunctionRef<void(std::uint32_t)> f) const {
         std::array<std::uint32_t, bvh_depth + 2> open{};
         for (std::size_t count_open = 1; count_open > 0;) { // open[0] is the root
             if (--budget < 0) return false;
@@ -342,8 +342,8 @@ private:
 struct ContactPieces {
     std::vector<Box> boxes{};
     std::vector<std::uint32_t> looks{};
-    std::vector<std::uint32_t> object{}; ///< The object of each piece.
-    std::vector<std::uint32_t> number{}; ///< The piece's number within the object.
+    GrowingArray<std::uint32_t> object{}; ///< The object of each piece.
+    GrowingArray<std::uint32_t> number{}; ///< The piece's number within the object.
 };
 
 /// Lists the pieces of all objects; of a mesh, only those close to other objects.
@@ -366,13 +366,14 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
         const ContactObject& object = search.objects[i];
         const Box& mine = whole.box(i);
         Box near; // around the parts of `mine` in other boxes
+        const auto unite = [&](std::uint32_t k) {
+            near = box_union(near, {glm::max(whole.box(k).low, mine.low),
+                                    glm::min(whole.box(k).high, mine.high)});
+        };
         if (object.pieces == 1)
             near = mine;
         else if (object.pieces > 1)
-            whole.each_overlap(i, budget, [&](std::uint32_t k) {
-                near = box_union(near, {glm::max(whole.box(k).low, mine.low),
-                                        glm::min(whole.box(k).high, mine.high)});
-            });
+            whole.each_overlap(i, budget, unite);
         for (std::uint32_t number = 0; number < object.pieces; ++number) {
             const Box box = object.pieces == 1
                                 ? mine
@@ -417,10 +418,12 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
         contact.alike |= shared->over_area && shared->alike;
         contact.opposed |= shared->over_area && !shared->alike;
     };
-    for (std::uint32_t i = 0; i < tree.size() && contacts.complete; ++i)
-        contacts.complete = tree.each_overlap(i, budget, [&](std::uint32_t k) {
+    for (std::uint32_t i = 0; i < tree.size() && contacts.complete; ++i) {
+        const auto compare_once = [&](std::uint32_t k) {
             if (pieces.object[i] < pieces.object[k]) compare(i, k);
-        });
+        };
+        contacts.complete = tree.each_overlap(i, budget, compare_once);
+    }
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ljus/accel/bvh8.hpp"
+#include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/image/texture.hpp"
 #include "ljus/lights/area_light.hpp"
 #include "ljus/math/frame.hpp"
@@ -390,7 +391,9 @@ private:
 
     // The box of each object, in the order of types and indices.
     [[nodiscard, gnu::cold]] std::vector<BoxT<Scalar>> find_bounds() {
-        std::vector<BoxT<Scalar>> boxes;
+        for (const auto& list : objects_) size_ += list.size();
+        std::vector<BoxT<Scalar>> boxes(size_);
+        auto next = boxes.begin();
         std::size_t type = 0;
         const auto add = [&](const auto& list) {
             require(list.size() == objects_[type].size(), "the number of shapes",
@@ -402,12 +405,11 @@ private:
                 const SphereT<Scalar> bound = bounding_sphere(shape);
                 box_.low = glm::min(box_.low, bound.center - bound.radius);
                 box_.high = glm::max(box_.high, bound.center + bound.radius);
-                boxes.push_back(detail::box_around(shape));
+                *next++ = detail::box_around(shape);
             }
             ++type;
         };
         detail::each_array(shapes_, add);
-        size_ = boxes.size();
         if (size_ == 0) box_ = {Vec3T<Scalar>{0}, Vec3T<Scalar>{0}};
         return boxes;
     }
@@ -418,7 +420,8 @@ private:
         std::size_t type = 0;
         const auto add = [&]<typename G>(const std::vector<G>& list) {
             if constexpr (detail::is_plane<G>) {
-                auto& frames = frames_[type] = std::vector<FrameT<Scalar>>(list.size());
+                auto& frames = frames_[type];
+                frames.resize(list.size());
                 for (std::size_t i = 0; i < list.size(); ++i) {
                     const auto n = normal(list[i]);
                     frames[i] = frame_around(objects_[type][i].inside_out ? -n : n);
@@ -431,11 +434,10 @@ private:
 
     [[gnu::cold]] void make_tree(const std::vector<BoxT<Scalar>>& boxes) {
         if (!detail::needs_tree(size_)) return;
-        std::vector<ObjectId> all;
-        all.reserve(size_);
+        detail::GrowingArray<ObjectId> all;
         each_object([&](ObjectId id, const auto&) { all.push_back(id); });
         tree_ = Tree(boxes, {.leaf_size = 1});
-        ids_ = std::vector<ObjectId>(size_);
+        ids_.resize(size_);
         for (std::size_t slot = 0; slot < size_; ++slot)
             ids_[slot] = all[tree_.primitive_ids()[slot]];
     }
@@ -510,7 +512,7 @@ private:
             BoxT<Scalar> box;
             bool absorbs; // also true with fog or priorities
         };
-        std::vector<Body> bodies;
+        detail::GrowingArray<Body> bodies;
         auto next = boxes.begin();
         each_object([&](ObjectId, const auto& object) {
             visit_material(object.material, [&]<typename M>(const M& m) {
@@ -619,7 +621,8 @@ private:
     decltype(S::prototypes) prototypes_; // to which shapes_ refer
     decltype(S::materials) materials_;
     decltype(S::media) fog_;
-    std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
+    std::array<detail::GrowingArray<FrameT<Scalar>>,
+               std::tuple_size_v<decltype(S::shapes)>>
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
@@ -630,10 +633,10 @@ private:
     bool has_holes_ = false;
     BoxT<Scalar> contact_box_{};
     Tree tree_{};
-    std::vector<ObjectId> ids_{};
+    detail::GrowingArray<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
-    std::vector<AddedId> lights_{}; // the index is in kept_, or in lamps_
+    detail::GrowingArray<AddedId> lights_{}; // the index is in kept_, or in lamps_
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};

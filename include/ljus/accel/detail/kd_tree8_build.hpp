@@ -120,14 +120,7 @@ public:
     /// Unused memory behind the last item, with space for at least one more. take()
     /// adds the items that were written into this memory.
     [[nodiscard]] std::span<Item> room() {
-        if (size_ == piece * pieces_.size()) {
-            if (spare_ != nullptr && !spare_->empty()) {
-                pieces_.push_back(std::move(spare_->back()));
-                spare_->pop_back();
-            } else {
-                pieces_.emplace_back(piece);
-            }
-        }
+        if (size_ == piece * pieces_.size()) add_piece();
         return {pieces_.back().data() + size_ % piece, piece - size_ % piece};
     }
     /// Adds the first `count` items that were written into room().
@@ -146,9 +139,17 @@ public:
         room()[0] = item;
         take(1);
     }
+    /// Adds items, the last one first if `backwards` is true. Copies of this function
+    /// and of drain() in each caller would be slow to compile, and no faster.
+    [[gnu::noinline]] void push_all(std::span<const Item> items,
+                                    bool backwards = false) {
+        for (std::size_t i = 0; i < items.size(); ++i)
+            push(items[backwards ? items.size() - 1 - i : i]);
+    }
     /// Calls use(items) for each piece, and frees the piece afterwards. If `backwards`
     /// is true, the last piece comes first. The list is empty at the end.
-    void drain(FunctionRef<void(std::span<const Item>)> use, bool backwards = false) {
+    [[gnu::noinline]] void drain(FunctionRef<void(std::span<const Item>)> use,
+                                 bool backwards = false) {
         const std::size_t count = pieces_.size();
         for (std::size_t n = 0; n < count; ++n) {
             const std::size_t k = backwards ? count - 1 - n : n;
@@ -170,6 +171,15 @@ public:
     }
 
 private:
+    [[gnu::cold]] void add_piece() {
+        if (spare_ == nullptr || spare_->empty()) {
+            pieces_.push_back(GrowingArray<Item>(piece));
+        } else {
+            pieces_.push_back(std::move(spare_->back()));
+            spare_->pop_back();
+        }
+    }
+
     Spare pieces_;
     std::size_t size_ = 0;
     Spare* spare_ = nullptr;
@@ -199,7 +209,7 @@ public:
 
     // Divides the points level by level, in lists, into the ranges of whole subtrees.
     // Then builds the subtrees in parallel, in arrays, and frees their items.
-    [[nodiscard]] KdTree8PartsT<T> build(Items items, int threads) {
+    [[nodiscard, gnu::cold]] KdTree8PartsT<T> build(Items items, int threads) {
         if (shape_.points < 4 * Items::piece) threads = 1; // too few to wake threads
         int depth = 0;
         std::vector<Items> ranges(1);
@@ -265,7 +275,8 @@ private:
         node.high.set(number % 8, high);
     }
     // Moves the points of a range to its halves, in the order of partition().
-    void divide(int depth, std::uint64_t number, Items& from, Items& low, Items& high) {
+    [[gnu::cold]] void divide(int depth, std::uint64_t number, Items& from, Items& low,
+                              Items& high) {
         const std::uint64_t count = from.size();
         const std::uint64_t rank =
             first_point(depth + 1, 2 * number + 1) - first_point(depth, number);
@@ -307,9 +318,6 @@ private:
         };
         from.drain(split);
         const std::uint64_t front = low.size();
-        const auto push = [](Items& list, auto first, auto last) {
-            for (; first != last; ++first) list.push(*first);
-        };
         const bool inside = front <= rank && rank <= count - above.size();
         if (!inside || (least != most && between.size() > count / 2)) {
             GrowingArray<Item> all = low.joined();
@@ -324,8 +332,8 @@ private:
             between.drain(add);
             above.drain(add_reversed, true);
             select(all.data(), count, rank, axis);
-            push(low, all.data(), all.data() + rank);
-            push(high, all.data() + rank, all.data() + count);
+            low.push_all({all.data(), rank});
+            high.push_all({all.data() + rank, count - rank});
             return;
         }
         GrowingArray<Item> band = between.joined();
@@ -334,10 +342,10 @@ private:
             partition(band.data(), sorted.data(), band.size(), rank - front, axis);
             band = std::move(sorted);
         }
-        push(low, band.data(), band.data() + (rank - front));
-        push(high, band.data() + (rank - front), band.data() + band.size());
+        low.push_all({band.data(), rank - front});
+        high.push_all({band.data() + (rank - front), band.size() - (rank - front)});
         const auto push_reversed = [&](std::span<const Item> items) {
-            push(high, items.rbegin(), items.rend());
+            high.push_all(items, true);
         };
         above.drain(push_reversed, true);
     }

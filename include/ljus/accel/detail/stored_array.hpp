@@ -81,7 +81,10 @@ public:
     GrowingArray(GrowingArray&& other) noexcept
         : memory_(std::exchange(other.memory_, {})),
           size_(std::exchange(other.size_, 0)), room_(std::exchange(other.room_, 0)) {}
-    GrowingArray& operator=(GrowingArray other) noexcept {
+    GrowingArray& operator=(const GrowingArray& other) {
+        return *this = GrowingArray(other);
+    }
+    GrowingArray& operator=(GrowingArray&& other) noexcept {
         std::swap(memory_, other.memory_);
         std::swap(size_, other.size_);
         std::swap(room_, other.room_);
@@ -164,7 +167,10 @@ public:
     StoredArray(StoredArray&& other) noexcept
         : own_(std::move(other.own_)), elements_(std::exchange(other.elements_, {})),
           unmap_(std::exchange(other.unmap_, nullptr)) {}
-    StoredArray& operator=(StoredArray other) noexcept {
+    StoredArray& operator=(const StoredArray& other) {
+        return *this = StoredArray(other);
+    }
+    StoredArray& operator=(StoredArray&& other) noexcept {
         std::swap(own_, other.own_);
         std::swap(elements_, other.elements_);
         std::swap(unmap_, other.unmap_);

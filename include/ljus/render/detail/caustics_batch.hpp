@@ -28,11 +28,12 @@ struct CausticsBatch {
         const auto add = [&](const PhotonMapT<T>& map,
                              const DensityEstimateSettings& estimate, T sign) {
             counts.map_queries += places.size();
-            estimates_together<T>(
-                map, places, estimate, light_kinds, counts.map_photons, found,
-                [&](const EstimatePlaceT<T>& place, const RgbT<T>& light) {
-                    give(place.item, sign * place.throughput * light);
-                });
+            const auto take = [&](const EstimatePlaceT<T>& place,
+                                  const RgbT<T>& light) {
+                give(place.item, sign * place.throughput * light);
+            };
+            estimates_together<T, Kernel>(map, places, estimate, light_kinds,
+                                          counts.map_photons, found, take);
         };
         add(maps.caustics, how, T(1));
         if (!maps.lone.empty()) {
@@ -50,7 +51,7 @@ template <typename Batch, std::floating_point T, typename M, typename K>
                            const RgbT<T>& throughput, const DensityEstimateOf<K>& how) {
     if constexpr (std::same_as<M, LambertianT<T>> &&
                   std::same_as<Batch, CausticsBatch<T>>)
-        if (how.nearest == 0 && in_lanes<M>(how)) {
+        if (how.nearest == 0) {
             set_place(batch.places.add(), vertex, material, throughput, batch.item);
             return true;
         }
