@@ -399,6 +399,9 @@ TEST_CASE("goniometric: versions of the format, a tilt table, and all factors") 
     CHECK(lamp.lumens == 2100);
     CHECK(lamp.watts == 100);
     CHECK(read("TILT=NONE\n", "2 -1 1").lumens == -1);
+    // Since 2019 the second of these tells how the file was made.
+    CHECK(read("IES:LM-63-2019\nTILT=NONE\n", "1 1 2", "0.5 1.1 5").table.candela[3] ==
+          doctest::Approx(12 * 2 * 0.5));
     const IesLamp file = load_ies(LJUS_TEST_INPUTS "/wall_washer.ies");
     CHECK(file.table.azimuth.size() == 13);
 }

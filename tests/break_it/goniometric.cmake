@@ -45,3 +45,9 @@ ljus_break_it(NAME ies-ballast HEADER io/load_ies.hpp TEST goniometric
     FROM [[factor *= in.number("the ballast factor", 1e-9, 1e9);]]
     TO   [[(void)in.number("the ballast factor", 1e-9, 1e9);]]
     CASES "goniometric: versions*")
+
+# The number that tells how a file was made scales its intensities.
+ljus_break_it(NAME ies-generation HEADER io/load_ies.hpp TEST goniometric
+    FROM "if (!since_2019) factor *= second;"
+    TO   "factor *= second;"
+    CASES "goniometric: versions*")

@@ -17,7 +17,7 @@ namespace ljus {
 /// \brief Files of the North American standard LM-63 \cite lm63, in which makers of
 /// lamps publish measurements. Chapter: \ref ch_lamps.
 ///
-/// This header reads the versions of 1986, 1991, 1995 and 2002, with all types of
+/// This header reads the versions of 1986, 1991, 1995, 2002 and 2019, with all types of
 /// photometry, all symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a
 /// lamp dims when its luminaire is tilted; it is read and not used.
 /// \{
@@ -194,6 +194,7 @@ struct IesGrid {
 [[nodiscard, gnu::cold]] inline IesLamp read_ies(std::string_view source,
                                                  const std::string& file) {
     detail::IesReader in{detail::plain_text(source, file), file};
+    const bool since_2019 = in.rest.starts_with("IES:"); // before, "IESNA:" or others
     std::string_view tilt;
     while (!tilt.starts_with("TILT=")) {
         if (in.rest.empty())
@@ -221,7 +222,10 @@ struct IesGrid {
     (void)in.count("the unit of length", 1, 2);
     for (int side = 0; side < 3; ++side) (void)in.number("a side of the luminaire");
     factor *= in.number("the ballast factor", 1e-9, 1e9);
-    factor *= in.number("the ballast-lamp factor", 1e-9, 1e9);
+    // Since 2019, a number in its place tells how the file was made, such as 1.1 for an
+    // accredited laboratory.
+    const double second = in.number("the ballast-lamp factor", 1e-9, 1e9);
+    if (!since_2019) factor *= second;
     IesLamp lamp{.lumens = lumens < 0 ? -1 : lamps * lumens,
                  .watts = in.number("the power", 0, 1e12)};
 
