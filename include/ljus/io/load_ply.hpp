@@ -105,6 +105,10 @@ private:
                 read_element_line(words);
             } else if (keyword == "property") {
                 read_property(words);
+            } else if (keyword == "comment" && words.next() == "TextureFile") {
+                mesh_.report.notes.push_back(
+                    join({"the header names the picture ", shown(words.name()),
+                          ", which is not loaded; a material of yours can have it."}));
             } else if (!keyword.empty() && keyword != "comment" &&
                        keyword != "obj_info" && mesh_.report.notes.empty()) {
                 mesh_.report.notes.push_back(
@@ -228,6 +232,9 @@ private:
                       " bytes behind the last element that its header lists; they are "
                       "not used."}));
     }
+    static bool is_face_uv(const PlyProperty& property) {
+        return property.count && property.name == "texcoord";
+    }
     static bool is_corners(const PlyProperty& property) {
         return property.count &&
                (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -240,7 +247,8 @@ private:
                 return whole(at) && std::count(at.begin(), at.end(), int(i)) > 0;
             };
             if (in(has.position) || in(has.normal) || in(has.color) || in(has.uv) ||
-                (element.name == "face" && is_corners(property)))
+                (element.name == "face" &&
+                 (is_corners(property) || is_face_uv(property))))
                 continue;
             unused.append(unused.empty() ? "" : ", ").append(property.name);
         }
@@ -265,25 +273,29 @@ private:
         if (element.count > 0 && !vertex && element.name != "face")
             mesh_.report.notes.push_back(join(
                 {"the elements ", shown(std::string(element.name)), " are not used."}));
-        std::vector<double> values(element.properties.size());
+        std::vector<double> values(element.properties.size()), corners, face_uv;
         for (std::size_t i = 0; i < element.count; ++i) {
             ++mesh_.place;
-            bool corners = false;
+            corners.clear();
+            face_uv.clear();
+            bool found = false;
             for (std::size_t k = 0; k < values.size(); ++k) {
                 const PlyProperty& property = element.properties[k];
                 if (!property.count) {
                     values[k] = number(property.type, element, i);
                     continue;
                 }
-                const bool names_vertices = face && !corners && is_corners(property);
-                corners = corners || names_vertices;
+                const bool names_vertices = face && !found && is_corners(property);
+                const bool is_uv = face && is_face_uv(property);
+                found = found || names_vertices;
                 for (std::size_t n = list_length(property, element, i); n > 0; --n) {
                     const double value = number(property.type, element, i);
-                    if (names_vertices) add_corner(value);
+                    if (names_vertices) corners.push_back(value);
+                    if (is_uv) face_uv.push_back(value);
                 }
             }
             if (vertex) add_vertex(element, has, values);
-            if (corners) mesh_.end_face();
+            if (found) add_face(corners, face_uv);
         }
     }
     void add_vertex(const PlyElement& element, const PlyVertex& has,
@@ -296,7 +308,7 @@ private:
         normals_ = whole(has.normal);
         if (normals_) mesh_.add_normal(vector(has.normal));
         uv_ = whole(has.uv);
-        if (uv_) mesh_.add_uv(value(has.uv[0]), value(has.uv[1]));
+        if (uv_) add_uv(value(has.uv[0]), value(has.uv[1]));
         if (!whole(has.color)) return;
         glm::dvec3 color = vector(has.color);
         for (int k = 0; k < 3; ++k) {
@@ -309,12 +321,26 @@ private:
         }
         mesh_.add_color(color);
     }
-    void add_corner(double value) {
-        const bool good = value >= 0 && value < double(no_number);
-        const std::uint32_t at = good ? static_cast<std::uint32_t>(value) : no_number;
-        const bool whole = good && double(at) == value;
-        mesh_.add_corner(whole ? at : no_number, uv_ ? at : no_number,
-                         normals_ ? at : no_number);
+    std::uint32_t add_uv(double u, double v) {
+        mesh_.add_uv(u, v);
+        return uv_count_++;
+    }
+    // Adds a face, whose corners may have texture coordinates of their own.
+    void add_face(const std::vector<double>& corners,
+                  const std::vector<double>& face_uv) {
+        const bool own_uv = face_uv.size() == 2 * corners.size();
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double value = corners[k];
+            const bool good = value >= 0 && value < double(no_number);
+            const std::uint32_t at =
+                good ? static_cast<std::uint32_t>(value) : no_number;
+            const bool whole = good && double(at) == value;
+            const std::uint32_t uv = own_uv ? add_uv(face_uv[2 * k], face_uv[2 * k + 1])
+                                     : uv_  ? at
+                                            : no_number;
+            mesh_.add_corner(whole ? at : no_number, uv, normals_ ? at : no_number);
+        }
+        mesh_.end_face();
     }
 
     std::string_view rest_; // unread part of the file
@@ -323,6 +349,7 @@ private:
     std::vector<PlyElement> elements_{};
     bool ascii_ = false, big_endian_ = false;
     bool normals_ = false, uv_ = false; // of the vertices
+    std::uint32_t uv_count_ = 0;
 };
 
 } // namespace detail
@@ -330,8 +357,8 @@ private:
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
-/// with diffuse_ before each). Faces may have any number of corners. Colours are sRGB,
-/// as integers from 0 to the largest of their type or as floats from 0 to 1. They
+/// with diffuse_ before each). Faces may have any number of corners, and a list texcoord
+/// with two texture coordinates for each. Colours are sRGB, as integers from 0 to the largest of their type or as floats from 0 to 1. They
 /// become a picture on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
