@@ -339,6 +339,11 @@ TEST_CASE("load_gltf: what its materials become") {
     CHECK_FALSE(matt.is_mirror());
     CHECK_FALSE(matt.is_glass());
     CHECK(matt.name == "materials[0]");
+    const MeshMaterial older = made_of(R"({"extensions":
+        {"KHR_materials_pbrSpecularGlossiness":
+        {"diffuseFactor": [0.5, 0.25, 0, 1], "glossinessFactor": 0.2}}})");
+    CHECK(older.diffuse == glm::dvec3(0.5, 0.25, 0));
+    CHECK_FALSE(older.is_mirror());
     const char* const red_metal = R"({"pbrMetallicRoughness":
         {"baseColorFactor": [0.5, 0.25, 0, 1], "roughnessFactor": 0.3}})";
     const MeshMaterial metal = made_of(red_metal);
@@ -473,6 +478,17 @@ TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {
         scene;
     add_meshes(scene, loaded);
     CHECK(scene.light_count() == 3);
+}
+
+TEST_CASE("load_gltf: of variants of materials a mesh has the first") {
+    File file = triangle();
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        file.all[list] = {"KHR_materials_variants",
+                          "KHR_materials_pbrSpecularGlossiness"};
+    std::string notes;
+    REQUIRE_NOTHROW(notes = to_text(read(file).report));
+    CHECK(notes.find("extensionsUsed[0] is KHR_materials_variants, which is not known: "
+                     "what it adds is left out") != std::string::npos);
 }
 
 TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
