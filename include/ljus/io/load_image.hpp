@@ -219,7 +219,10 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // may quote bytes of the file
-    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error")}));
+    refuse(join({is_bmp ? "is a BMP file that is damaged or of a rare kind; save it "
+                          "as PNG: "
+                        : "is damaged: ",
+                 shown(why != nullptr ? why : "error")}));
     return picture;
 }
 #endif
