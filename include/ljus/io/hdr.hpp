@@ -151,8 +151,8 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 
 } // namespace detail
 
-/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded, also
-/// by the coding from before 1991.
+/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded, by
+/// today's coding or by that from before 1991.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
 ///         header.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is of

@@ -357,9 +357,10 @@ private:
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
-/// with diffuse_ before each). Faces may have any number of corners, and a list texcoord
-/// with two texture coordinates for each. Colours are sRGB, as integers from 0 to the largest of their type or as floats from 0 to 1. They
-/// become a picture on a white mesh.
+/// with diffuse_ before each). Faces may have any number of corners, and a list
+/// texcoord with two texture coordinates for each. Colours are sRGB, as integers from 0
+/// to the largest of their type or as floats from 0 to 1. They become a picture on a
+/// white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().
