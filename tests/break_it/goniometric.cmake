@@ -51,3 +51,9 @@ ljus_break_it(NAME ies-generation HEADER io/load_ies.hpp TEST goniometric
     FROM "if (!since_2019) factor *= second;"
     TO   "factor *= second;"
     CASES "goniometric: versions*")
+
+# A comma separates only with a blank behind it.
+ljus_break_it(NAME ies-comma HEADER io/load_ies.hpp TEST goniometric
+    FROM "words.rest = {next, static_cast<std::size_t>(end - next)};"
+    TO   ""
+    CASES "goniometric: versions*")

@@ -53,18 +53,29 @@ struct IesReader {
         ++line;
         return take_line(rest);
     }
-    double number(const char* what) {
-        std::string_view word = words.next();
-        while (word.empty() && !rest.empty()) {
-            words.rest = take();
-            word = words.next();
+    /// The next word of the line, up to a blank or a comma; empty at its end, and
+    /// between a blank and a comma.
+    std::string_view word() {
+        const std::string_view to_blank = words.next();
+        const std::string_view text = to_blank.substr(0, to_blank.find(','));
+        if (text.size() < to_blank.size()) {
+            const char* const next = text.data() + text.size() + 1;
+            const char* const end = words.rest.data() + words.rest.size();
+            words.rest = {next, static_cast<std::size_t>(end - next)};
         }
-        if (word.empty()) refuse_line(join({"the file ends before ", what}));
-        if (word.ends_with(',')) word.remove_suffix(1);
-        const double value = number_of(word);
+        return text;
+    }
+    double number(const char* what) {
+        std::string_view text = word();
+        while (text.empty() && !(words.rest.empty() && rest.empty())) {
+            if (words.rest.empty()) words.rest = take();
+            text = word();
+        }
+        if (text.empty()) refuse_line(join({"the file ends before ", what}));
+        const double value = number_of(text);
         if (!std::isfinite(value))
             refuse_line(join(
-                {what, " is '", shown(std::string(word)), "'; it must be a number"}));
+                {what, " is '", shown(std::string(text)), "'; it must be a number"}));
         return value;
     }
     double number(const char* what, double low, double high) {
