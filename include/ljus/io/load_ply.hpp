@@ -214,7 +214,7 @@ private:
             std::find_if(elements_.begin(), elements_.end(), is_vertex);
         std::vector<std::pair<const PlyElement*, std::string_view>> later;
         for (auto e = elements_.begin(); e != elements_.end(); ++e) {
-            const bool early = e < vertices && e->name == "face";
+            const bool early = e < vertices && has_triangles(*e);
             if (early) later.emplace_back(&*e, rest_);
             read_element(*e, early);
         }
@@ -232,6 +232,9 @@ private:
                       " bytes behind the last element that its header lists; they are "
                       "not used."}));
     }
+    static bool has_triangles(const PlyElement& element) {
+        return element.name == "face" || element.name == "tristrips";
+    }
     static bool is_face_uv(const PlyProperty& property) {
         return property.count && property.name == "texcoord";
     }
@@ -247,8 +250,8 @@ private:
                 return whole(at) && std::count(at.begin(), at.end(), int(i)) > 0;
             };
             if (in(has.position) || in(has.normal) || in(has.color) || in(has.uv) ||
-                (element.name == "face" &&
-                 (is_corners(property) || is_face_uv(property))))
+                (has_triangles(element) && is_corners(property)) ||
+                (element.name == "face" && is_face_uv(property)))
                 continue;
             unused.append(unused.empty() ? "" : ", ").append(property.name);
         }
@@ -264,13 +267,13 @@ private:
     // Reads all elements of one kind; with `pass_over` faces are only skipped.
     void read_element(const PlyElement& element, bool pass_over) {
         const bool vertex = element.name == "vertex";
-        const bool face = element.name == "face" && !pass_over;
+        const bool face = has_triangles(element) && !pass_over;
         const PlyVertex has = vertex ? properties_of(element) : PlyVertex{};
         if (vertex && !whole(has.position))
             refuse("its vertices must have the properties x, y and z");
         if (element.properties.empty()) return; // such elements take no bytes
         if (vertex || face) note_unused(element, has);
-        if (element.count > 0 && !vertex && element.name != "face")
+        if (element.count > 0 && !vertex && !has_triangles(element))
             mesh_.report.notes.push_back(join(
                 {"the elements ", shown(std::string(element.name)), " are not used."}));
         std::vector<double> values(element.properties.size()), corners, face_uv;
@@ -295,7 +298,8 @@ private:
                 }
             }
             if (vertex) add_vertex(element, has, values);
-            if (found) add_face(corners, face_uv);
+            if (found && element.name == "face") add_face(corners, face_uv);
+            if (found && element.name != "face") add_strips(corners);
         }
     }
     void add_vertex(const PlyElement& element, const PlyVertex& has,
@@ -343,6 +347,22 @@ private:
         mesh_.end_face();
     }
 
+    // Adds strips of triangles, each of which ends with -1. Every second triangle of a
+    // strip is wound the other way.
+    void add_strips(const std::vector<double>& corners) {
+        for (std::size_t i = 0, in_strip = 0; i < corners.size(); ++i) {
+            if (corners[i] == -1) {
+                in_strip = 0;
+                continue;
+            }
+            if (in_strip >= 2) {
+                const std::size_t odd = in_strip % 2;
+                add_face({corners[i - 2 + odd], corners[i - 1 - odd], corners[i]}, {});
+            }
+            ++in_strip;
+        }
+    }
+
     std::string_view rest_; // unread part of the file
     const std::string& file_;
     MeshBuilder<T> mesh_;
@@ -358,9 +378,10 @@ private:
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
 /// with diffuse_ before each). Faces may have any number of corners, and a list
-/// texcoord with two texture coordinates for each. Colours are sRGB, as integers from 0
-/// to the largest of their type or as floats from 0 to 1. They become a picture on a
-/// white mesh.
+/// texcoord with two texture coordinates for each. The list of an element tristrips
+/// has strips of triangles, each of which ends with -1. Colours are sRGB, as integers
+/// from 0 to the largest of their type or as floats from 0 to 1. They become a picture
+/// on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().
