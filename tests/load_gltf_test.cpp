@@ -405,6 +405,17 @@ TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") 
     CHECK(pixel(image, 0, 0) == Rgb{1, 0, 0});
     CHECK(loaded.parts[0].material.picture.name == "x.gltf, images[0]");
     CHECK(loaded.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
+    // In the older extension, with holes.
+    File older = file;
+    older.all["materials"] = R"([{"alphaMode": "MASK", "extensions":
+        {"KHR_materials_pbrSpecularGlossiness":
+         {"diffuseTexture": {"index": 0, "texCoord": 1}}}}])"_json;
+    const auto matt = read(older);
+    REQUIRE(matt.parts.size() == 1);
+    CHECK_FALSE(matt.parts[0].material.is_mirror());
+    CHECK(matt.parts[0].material.picture.name == "x.gltf, images[0]");
+    CHECK(matt.parts[0].material.mask.name == "x.gltf, images[0] (alpha)");
+    CHECK(matt.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
     // Roughness divides metals only.
     file.all["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
     CHECK(read(file).parts.size() == 1);

@@ -99,3 +99,9 @@ ljus_break_it(NAME gltf-specular-glossiness HEADER io/detail/gltf_reader.hpp TES
     FROM "surface.metal = 0;"
     TO   ""
     CASES "load_gltf: what its materials become")
+
+# The picture of the older extension is looked up by the first texture coordinates.
+ljus_break_it(NAME gltf-diffuse-texture HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "field ? color_texture(*surface.material) : std::nullopt;"
+    TO   "std::optional<JsonField>{};"
+    CASES "load_gltf: pictures of colour*")

@@ -365,20 +365,15 @@ private:
                        std::size_t count) {
         Surface surface;
         const auto field = find(primitive, "material");
-        std::optional<JsonField> colors;
         if (field) {
             surface.number = file_.number_in(*field, "materials");
             surface.material.emplace(file_.named(*field, "materials"));
-            if (const auto gloss = specular_glossiness(*surface.material)) {
+            if (specular_glossiness(*surface.material)) {
                 surface.metal = 0;
-                if (const auto found = find(*gloss, "diffuseTexture"))
-                    colors.emplace(*found);
             } else if (const auto pbr =
                            find(*surface.material, "pbrMetallicRoughness")) {
                 surface.metal = number_of(*pbr, "metallicFactor", 1, 0, 1);
                 surface.roughness = number_of(*pbr, "roughnessFactor", 1, 0, 1);
-                if (const auto found = find(*pbr, "baseColorTexture"))
-                    colors.emplace(*found);
                 const auto texture = find(*pbr, "metallicRoughnessTexture");
                 if (texture && settings_.pictures) {
                     surface.uv = uv_of(*texture, attributes, count);
@@ -386,6 +381,7 @@ private:
                 }
             }
         }
+        const auto colors = field ? color_texture(*surface.material) : std::nullopt;
         // Without a picture the first set is kept, for pictures that a user may add.
         const std::vector<double> uv =
             uv_of(colors ? *colors : primitive, attributes, count);
@@ -455,8 +451,7 @@ private:
     void read_details(const JsonField& field, double alpha, MeshMaterial& material,
                       std::vector<std::string>& unused) {
         const auto texture = find(field, "normalTexture");
-        const auto pbr = find(field, "pbrMetallicRoughness");
-        const auto colors = pbr ? find(*pbr, "baseColorTexture") : std::nullopt;
+        const auto colors = color_texture(field);
         if (texture) {
             MeshMaterial lookup;
             const bool whole = read_lookup(*texture, lookup);
@@ -482,7 +477,7 @@ private:
         }
         const auto mode = find(field, "alphaMode");
         if (mode && text(*mode) == "MASK" && colors && alpha > 0) {
-            material.mask = {material.picture.name, "a baseColorTexture"};
+            material.mask = material.picture;
             material.cutoff = number_of(field, "alphaCutoff", 0.5, 0, 1e6) / alpha;
         } else if (mode && text(*mode) != "OPAQUE") {
             unused.push_back("alphaMode " + shown(text(*mode)));
@@ -561,6 +556,12 @@ private:
         if (!all) return {};
         return find(*all, "KHR_materials_pbrSpecularGlossiness");
     }
+    static std::optional<JsonField> color_texture(const JsonField& material) {
+        if (const auto gloss = specular_glossiness(material))
+            return find(*gloss, "diffuseTexture");
+        const auto pbr = find(material, "pbrMetallicRoughness");
+        return pbr ? find(*pbr, "baseColorTexture") : std::nullopt;
+    }
 
     MeshMaterial read_material(const JsonField& field) {
         MeshMaterial material;
@@ -577,11 +578,11 @@ private:
                                               glm::dvec3(0), glm::dvec3(1));
                 alpha = c[3];
             }
-            if (const auto texture =
-                    find(*pbr, gloss ? "diffuseTexture" : "baseColorTexture")) {
-                material.picture = {picture_of(*texture), "a baseColorTexture"};
+            if (const auto texture = color_texture(field)) {
+                const std::string name = gloss ? "diffuseTexture" : "baseColorTexture";
+                material.picture = {picture_of(*texture), "a " + name};
                 if (!read_lookup(*texture, material))
-                    unused.push_back("a part of how baseColorTexture lies");
+                    unused.push_back("a part of how " + name + " lies");
             }
             const double metal = number_of(*pbr, "metallicFactor", 1, 0, 1);
             if (metal > 0 && metal < 1)
