@@ -184,7 +184,8 @@ TEST_CASE("exr: several parts, a data window of its own, and a grey picture") {
             CHECK(pixel(parts[1].image, x, y).x == float(x + 2 + 100 * (y + 3)));
     CHECK(load_exr(input("parts"), "depth.Z").width == 4);
     CHECK(refusal_of(input("parts")) ==
-          input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z'.");
+          input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z': "
+                           "load one by its name, or save it as R, G and B.");
     // Luminance, in rows from the bottom up, and colours for every second pixel.
     CHECK(refusal_of(input("grey")) ==
           input("grey") +

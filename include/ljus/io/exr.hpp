@@ -567,7 +567,8 @@ template <std::floating_point T = float>
         reader.refuse(detail::join(
             {"has no ",
              layer.empty() ? "picture of R, G and B" : "layer '" + shown(layer) + "'",
-             "; it has", shown(names, 400)}));
+             "; it has", shown(names, 400),
+             layer.empty() ? ": load one by its name, or save it as R, G and B" : ""}));
     if (layer.empty() && found->channels.size() == 1)
         reader.require_no_chroma(found->part);
     reader.require_srgb(found->part);
