@@ -184,12 +184,36 @@ TEST_CASE("exr: several parts, a data window of its own, and a grey picture") {
             CHECK(pixel(parts[1].image, x, y).x == float(x + 2 + 100 * (y + 3)));
     CHECK(load_exr(input("parts"), "depth.Z").width == 4);
     CHECK(refusal_of(input("parts")) ==
-          input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z'.");
+          input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z': "
+                           "load one by its name, or save it as R, G and B.");
     // Luminance, in rows from the bottom up, and colours for every second pixel.
-    REQUIRE_NOTHROW((void)load_exr(input("grey")));
-    const Image grey = load_exr(input("grey"));
+    CHECK(refusal_of(input("grey")) ==
+          input("grey") +
+              " has a luminance Y with colours in RY and BY, which are not "
+              "read; save it with R, G and B, or load its layer 'Y' alone.");
+    REQUIRE_NOTHROW((void)load_exr(input("grey"), "Y"));
+    const Image grey = load_exr(input("grey"), "Y");
     CHECK(load_exr_layers(input("grey")).size() == 1);
     CHECK(pixel(grey, 5, 7) == Rgb{5 / 16.f});
+}
+
+TEST_CASE("exr: a luminance without colours is grey, no layer is no picture") {
+    save_exr_layers(
+        std::vector<Layer>{{.channels{"Y"}, .image = make_image(2, 2, Rgb{0.5f})}},
+        folder.file("y.exr"));
+    CHECK(load_exr(folder.file("y.exr")).pixels == std::vector<Rgb>(4, Rgb{0.5f}));
+    // Every channel has values for every second pixel only.
+    Bytes bytes = load_file(input("grey"), 1 << 20);
+    const unsigned char name_and_head[]{'Y', 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1};
+    const auto at = std::search(bytes.begin(), bytes.end(), std::begin(name_and_head),
+                                std::end(name_and_head));
+    REQUIRE(at != bytes.end());
+    at[10] = at[14] = 2;
+    save_file(folder.file("half.exr"), bytes);
+    CHECK(refusal_of(folder.file("half.exr"))
+              .find("has only deep pixels, or channels "
+                    "with fewer values than pixels") != std::string::npos);
+    CHECK_THROWS((void)load_exr_layers(folder.file("half.exr")));
 }
 
 TEST_CASE("exr: layers that no file can hold are refused") {

@@ -354,6 +354,18 @@ TEST_CASE("file: a file of too few bytes does not begin as it must") {
     }
 }
 
+TEST_CASE("file: a file that stands for one of Git LFS is named as such") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("sky.hdr");
+    ScratchFolder::write(path, "version https://git-lfs.github.com/spec/v1\n"
+                               "oid sha256:7864531fb60c\nsize 78545491\n");
+    CHECK_THROWS_WITH((void)ljus::load_file(path, 1000, "#?"),
+                      ("cannot read '" + path +
+                       "': it only stands for a file that Git LFS keeps; `git lfs "
+                       "pull` brings the file itself.")
+                          .c_str());
+}
+
 TEST_CASE("file: pieces begin with what was left of the one before") {
     const ScratchFolder folder;
     const std::string path = folder.file("words");

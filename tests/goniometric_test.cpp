@@ -399,6 +399,16 @@ TEST_CASE("goniometric: versions of the format, a tilt table, and all factors") 
     CHECK(lamp.lumens == 2100);
     CHECK(lamp.watts == 100);
     CHECK(read("TILT=NONE\n", "2 -1 1").lumens == -1);
+    // Commas may separate numbers, with and without blanks.
+    IesLamp commas;
+    REQUIRE_NOTHROW(commas = read("TILT=INCLUDE\n1,\n2,0 , 90,\n,1,1\n", "3,700 ,2.5",
+                                  "1,1,\n,100"));
+    CHECK(commas.table.candela[3] == 12 * 2.5);
+    CHECK(commas.lumens == 2100);
+    CHECK(commas.watts == 100);
+    // Since 2019 the second of these tells how the file was made.
+    CHECK(read("IES:LM-63-2019\nTILT=NONE\n", "1 1 2", "0.5 1.1 5").table.candela[3] ==
+          doctest::Approx(12 * 2 * 0.5));
     const IesLamp file = load_ies(LJUS_TEST_INPUTS "/wall_washer.ies");
     CHECK(file.table.azimuth.size() == 13);
 }

@@ -239,6 +239,10 @@ TEST_CASE("hdr: the exposure of the header is taken out again") {
                          "#?RADIANCE\n# a comment\nEXPOSURE= 2.0\nEXPOSURE=4e0\r\n"
                          "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
     CHECK(ljus::load_hdr(path).pixels[0] == ljus::Rgb{0.125f, 0.0625f, 0.03125f});
+    // 0 stands for unknown.
+    ScratchFolder::write(path, "#?RADIANCE\nEXPOSURE=2\nGAMMA=1\nEXPOSURE=0\n\n"
+                               "-Y 1 +X 1\n\x80\x40\x20\x81");
+    CHECK(ljus::load_hdr(path).pixels[0] == ljus::Rgb{0.5f, 0.25f, 0.125f});
     // Light without end is refused, and not loaded as infinity.
     for (const char* exposure : {"1e-300", "1e-38\nEXPOSURE=1e-2"}) {
         ScratchFolder::write(path, std::string("#?RADIANCE\nEXPOSURE=") + exposure +
@@ -257,8 +261,6 @@ TEST_CASE("hdr: the colour correction of the header is taken out, other primarie
     CHECK(
         message_of_load(folder + "primaries.hdr").find("its header says PRIMARIES=") ==
         0);
-    CHECK(message_of_load(folder + "old_runs.hdr") ==
-          "it has the run-length coding from before 1991, which is not supported.");
     const ScratchFolder scratch;
     const std::string path = scratch.file("a.hdr");
     const auto message = [&](const std::string& line) {
@@ -297,7 +299,7 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     for (const std::string& header :
          {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
           start + "FORMAT=32-bit_rle_xyze\n\n-Y 2 +X 3\n",
-          start + "EXPOSURE=0\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
+          start + "EXPOSURE=-1\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 +X 3\n",
           start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",
           start + "\n-Y 268435456 +X 268435456\n", start + "\n-Y 268435456 +X 1\n",
@@ -321,7 +323,7 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     CHECK(message(start + "\n+Y 1 +X 3\n" + row) == "its rows go +Y +X" + only);
     CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
     CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);
-    for (const char* const exposure : {"0", "-1", "1e999", "nan"})
+    for (const char* const exposure : {"-1", "1e999", "nan"})
         CHECK(message(start + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 3\n" + row)
                   .find("which is not a number above 0") != std::string::npos);
     CHECK(message(start + "\n-Y 30000 +X 20000\n" + row) ==
@@ -330,7 +332,7 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     CHECK(message(start + "\n-Y 1 +X 3\n" + row.substr(1)) ==
           "its last row is incomplete.");
     CHECK(message(start + "\n-Y 1 +X 3\n\1\1\1" + row.substr(3)) ==
-          "it has the run-length coding from before 1991, which is not supported.");
+          "a run of its repeated pixels leaves its row or repeats none.");
     // A coded row of 8 that says 9, or whose first run is empty or too long, with good
     // ones behind it.
     const std::string coded = start + "\n-Y 1 +X 8\n\2\2";
@@ -357,6 +359,36 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     CHECK(image.pixels[2].x == 3 * std::ldexp(1.0f, 103 - 136));
     CHECK(image.pixels[3].x == 9 * std::ldexp(1.0f, 103 - 136));
     CHECK(image.pixels[7].z == 102 * std::ldexp(1.0f, 103 - 136));
+}
+
+TEST_CASE("hdr: the coding from before 1991 repeats the pixel before") {
+    const ljus::Image seven = ljus::load_hdr(LJUS_TEST_INPUTS "/old_runs.hdr");
+    CHECK(seven.pixels == std::vector<ljus::Rgb>(8, ljus::Rgb{1, 0.5f, 0.25f}));
+    // 0x12a repeats in two bytes, another pixel, and two repeats of that one.
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    const std::string first = "\x80\x40\x20\x81", second = "\x20\x40\x80\x82";
+    const auto repeat = [](int count) { return std::string{1, 1, 1, char(count)}; };
+    const auto message = [&](int width, const std::string& rows) {
+        ScratchFolder::write(path, "#?RADIANCE\n\n-Y 2 +X " + std::to_string(width) +
+                                       "\n" + rows);
+        return message_of_load(path);
+    };
+    const std::string row =
+        first + repeat(0x2a) + repeat(1) + second + repeat(2) + first;
+    REQUIRE(message(303, row + row) == "loaded");
+    const ljus::Image image = ljus::load_hdr(path);
+    for (int x = 0; x < 303; ++x)
+        CHECK(pixel(image, x, 1) ==
+              (x > 298 && x < 302 ? ljus::Rgb{0.5f, 1, 2} : ljus::Rgb{1, 0.5f, 0.25f}));
+    const std::string wrong =
+        "a run of its repeated pixels leaves its row or repeats none.";
+    for (const std::string& runs :
+         {repeat(2) + first, first + repeat(3), first + repeat(0) + repeat(1),
+          first + repeat(0) + repeat(0) + repeat(0) + first + first}) {
+        CHECK(message(3, runs + first + first + first) == wrong);
+        CHECK(message(3, first + first + first + runs) == wrong);
+    }
 }
 
 TEST_CASE("hdr: a row too narrow or too wide for the coding is read as it stands") {

@@ -339,6 +339,11 @@ TEST_CASE("load_gltf: what its materials become") {
     CHECK_FALSE(matt.is_mirror());
     CHECK_FALSE(matt.is_glass());
     CHECK(matt.name == "materials[0]");
+    const MeshMaterial older = made_of(R"({"extensions":
+        {"KHR_materials_pbrSpecularGlossiness":
+        {"diffuseFactor": [0.5, 0.25, 0, 1], "glossinessFactor": 0.2}}})");
+    CHECK(older.diffuse == glm::dvec3(0.5, 0.25, 0));
+    CHECK_FALSE(older.is_mirror());
     const char* const red_metal = R"({"pbrMetallicRoughness":
         {"baseColorFactor": [0.5, 0.25, 0, 1], "roughnessFactor": 0.3}})";
     const MeshMaterial metal = made_of(red_metal);
@@ -400,6 +405,17 @@ TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") 
     CHECK(pixel(image, 0, 0) == Rgb{1, 0, 0});
     CHECK(loaded.parts[0].material.picture.name == "x.gltf, images[0]");
     CHECK(loaded.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
+    // In the older extension, with holes.
+    File older = file;
+    older.all["materials"] = R"([{"alphaMode": "MASK", "extensions":
+        {"KHR_materials_pbrSpecularGlossiness":
+         {"diffuseTexture": {"index": 0, "texCoord": 1}}}}])"_json;
+    const auto matt = read(older);
+    REQUIRE(matt.parts.size() == 1);
+    CHECK_FALSE(matt.parts[0].material.is_mirror());
+    CHECK(matt.parts[0].material.picture.name == "x.gltf, images[0]");
+    CHECK(matt.parts[0].material.mask.name == "x.gltf, images[0] (alpha)");
+    CHECK(matt.parts[0].mesh.data().uv.at(2) == Vec2{0.2f, 0});
     // Roughness divides metals only.
     file.all["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
     CHECK(read(file).parts.size() == 1);
@@ -473,6 +489,17 @@ TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {
         scene;
     add_meshes(scene, loaded);
     CHECK(scene.light_count() == 3);
+}
+
+TEST_CASE("load_gltf: of variants of materials a mesh has the first") {
+    File file = triangle();
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        file.all[list] = {"KHR_materials_variants",
+                          "KHR_materials_pbrSpecularGlossiness"};
+    std::string notes;
+    REQUIRE_NOTHROW(notes = to_text(read(file).report));
+    CHECK(notes.find("extensionsUsed[0] is KHR_materials_variants, which is not known: "
+                     "what it adds is left out") != std::string::npos);
 }
 
 TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {

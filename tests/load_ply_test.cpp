@@ -69,6 +69,54 @@ TEST_CASE("load_ply: what other programs write") {
     CHECK(odd.find("element 6: 4 edges belong to one face only") == 0);
 }
 
+TEST_CASE("load_ply: the corners of a face may have texture coordinates") {
+    // Two faces that share an edge, and a third whose list is too short.
+    const auto loaded =
+        read("ply\nformat ascii 1.0\ncomment TextureFile  my wood.jpg \n"
+             "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+             "element face 3\nproperty list uchar float texcoord\n"
+             "property list uchar int vertex_indices\nend_header\n"
+             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+             "6 0.1 0.2 0.3 0.4 0.5 0.6 3 0 1 2\n6 0.7 0.8 0.9 1 0 0.25 3 0 2 3\n"
+             "4 0 0 1 1 3 0 3 1\n");
+    const auto& data = loaded.parts.at(0).mesh.data();
+    REQUIRE(data.triangles.size() == 3);
+    const auto corner = [&](std::size_t triangle, int k) {
+        return data.uv.at(data.triangles[triangle][k]);
+    };
+    CHECK(corner(0, 1) == Vec2{0.3f, 0.4f});
+    CHECK(corner(0, 2) == Vec2{0.5f, 0.6f});
+    CHECK(corner(1, 0) == Vec2{0.7f, 0.8f});
+    CHECK(corner(1, 2) == Vec2{0, 0.25f});
+    CHECK(loaded.report[MeshTrouble::no_uv].count == 1);
+    CHECK(loaded.report.notes ==
+          std::vector<std::string>{"the header names the picture my wood.jpg, which is "
+                                   "not loaded; a material of yours can have it."});
+}
+
+TEST_CASE("load_ply: strips of triangles, one after another in a list") {
+    // A square of two triangles, a triangle, and a strip too short.
+    const std::string strips = "element tristrips 1\n"
+                               "property list int int vertex_indices\n";
+    const std::string vertices = "element vertex 6\nproperty float x\n"
+                                 "property float y\nproperty float z\n";
+    const std::string points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n2 1 0\n";
+    const std::string list = "11 0 1 2 3 -1 1 4 5 -1 0 1\n";
+    const std::string start = "ply\nformat ascii 1.0\n", end = "end_header\n";
+    for (const bool first : {false, true}) {
+        const auto loaded =
+            read(first ? start + strips + vertices + end + list + points
+                       : start + vertices + strips + end + points + list);
+        const Mesh& mesh = loaded.parts.at(0).mesh;
+        REQUIRE(mesh.size() == 3);
+        for (std::uint32_t k = 0; k < 3; ++k)
+            CHECK(normal(mesh.triangle(k)) == Vec3{0, 0, 1});
+        CHECK(area(mesh) == 1.5);
+        CHECK(loaded.report[MeshTrouble::bad_index].count == 0);
+        CHECK(to_text(loaded.report).find("are not used") == std::string::npos);
+    }
+}
+
 TEST_CASE("load_ply: whole numbers are signed, or not, as their type says") {
     // -1 as char, 65535 as ushort, -2 as int, in bytes of either order.
     for (const bool big : {false, true}) {

@@ -182,6 +182,20 @@ TEST_CASE("pfm: a size with many digits is no small one, a word has at most 64")
           "its header has a word of more than 64 letters.");
 }
 
+TEST_CASE("pfm: comments in the header, as image editors write them") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.pfm");
+    const std::string pixel(12, '\0');
+    ScratchFolder::write(path, "PF\n#\n# 7 7 by hand\n1 #1\n1\n-1.0\n" + pixel);
+    ljus::Image image;
+    REQUIRE_NOTHROW(image = ljus::load_pfm(path));
+    CHECK(image.width == 1);
+    // A # among the pixels is none.
+    ScratchFolder::write(path, "Pf\n1 1\n-1\n##\n#");
+    REQUIRE_NOTHROW(image = ljus::load_pfm(path));
+    CHECK(image.pixels[0].x == std::bit_cast<float>(0x230a2323u));
+}
+
 TEST_CASE("pfm: blanks behind the words of the header are no pixels") {
     ljus::Image image;
     REQUIRE_NOTHROW(image = ljus::load_pfm(LJUS_TEST_INPUTS "/spaces.pfm"));

@@ -932,6 +932,13 @@ TEST_CASE("texture: BMP files from the top, of few colours, cut off and compress
     CHECK(trouble_with(Bytes(whole.begin(), whole.end() - 3)).empty());
     CHECK(trouble_with(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
               .find("a has 1 x 2147483648") == 0);
+    // Two bits for a pixel, and a header of 64 bytes.
+    const std::string rare =
+        "a is a BMP file that is damaged or of a rare kind; save it as PNG.";
+    CHECK(trouble_with(bmp(4, 1, 2, two, {0, 0, 0, 0})) == rare);
+    Bytes os2 = whole;
+    os2[14] = 64;
+    CHECK(trouble_with(os2) == rare);
     CHECK(trouble_with(bmp(8, 1, 8, two, {8, 1, 0, 0, 0, 1}, 1)) ==
           "a is a BMP file that is compressed; save it without, or as PNG.");
 }

@@ -39,3 +39,9 @@ ljus_break_it(NAME exr-materials-scale HEADER io/exr.hpp TEST exr
     FROM "return files.with_materials(path, scale, normals);"
     TO   "return files.with_materials(path, 1.0, normals);"
     CASES "exr: what reads meshes*")
+
+# The colours beside a luminance are lost.
+ljus_break_it(NAME exr-chroma HEADER io/exr.hpp TEST exr
+    FROM "reader.require_no_chroma(found->part);"
+    TO   ";"
+    CASES "exr: several parts*")

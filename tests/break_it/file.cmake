@@ -63,3 +63,9 @@ ljus_break_it(NAME file-link-nowhere HEADER io/file_beside.hpp TEST file
     FROM "S_ISLNK(status.st_mode)"
     TO   "false"
     CASES "file: behind a symbolic link*")
+
+# A file that Git LFS keeps is another kind of file.
+ljus_break_it(NAME file-lfs HEADER io/file.hpp TEST file
+    FROM "text.starts_with(\"version https://git-lfs.\")"
+    TO   "false"
+    CASES "file: a file that stands for*")

@@ -45,3 +45,15 @@ ljus_break_it(NAME ies-ballast HEADER io/load_ies.hpp TEST goniometric
     FROM [[factor *= in.number("the ballast factor", 1e-9, 1e9);]]
     TO   [[(void)in.number("the ballast factor", 1e-9, 1e9);]]
     CASES "goniometric: versions*")
+
+# The number that tells how a file was made scales its intensities.
+ljus_break_it(NAME ies-generation HEADER io/load_ies.hpp TEST goniometric
+    FROM "if (!since_2019) factor *= second;"
+    TO   "factor *= second;"
+    CASES "goniometric: versions*")
+
+# A comma separates only with a blank behind it.
+ljus_break_it(NAME ies-comma HEADER io/load_ies.hpp TEST goniometric
+    FROM "words.rest = {next, static_cast<std::size_t>(end - next)};"
+    TO   ""
+    CASES "goniometric: versions*")

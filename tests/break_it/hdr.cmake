@@ -45,3 +45,21 @@ ljus_break_it(NAME hdr-gamma HEADER io/hdr.hpp TEST hdr
     FROM "!= std::vector<double>{1.0})"
     TO   "== std::vector<double>{0.0})"
     CASES "hdr: the colour correction*")
+
+# Of a long run the lower byte alone is counted.
+ljus_break_it(NAME hdr-old-run HEADER io/hdr.hpp TEST hdr
+    FROM "<< 8 * digit"
+    TO   "<< 0 * digit"
+    CASES "hdr: the coding from before 1991*")
+
+# A repeat may be the first of a row.
+ljus_break_it(NAME hdr-old-first HEADER io/hdr.hpp TEST hdr
+    FROM "if (row.empty() || digit > 1"
+    TO   "if (row.empty()) row.push_back(rgbe);\n        if (digit > 1"
+    CASES "hdr: the coding from before 1991*")
+
+# An exposure of 0 divides the pixels.
+ljus_break_it(NAME hdr-exposure-unknown HEADER io/hdr.hpp TEST hdr
+    FROM "numbers == std::vector{0.0}"
+    TO   "numbers == std::vector{2.0}"
+    CASES "hdr: the exposure*")

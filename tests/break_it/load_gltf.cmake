@@ -93,3 +93,15 @@ ljus_break_it(NAME gltf-metal-colors HEADER io/detail/mesh_builder.hpp TEST load
     FROM "is.is_mirror() && is.roughness == 0"
     TO   "is.is_mirror()"
     CASES "load_gltf: pictures of colour*")
+
+# What has its colours in the older extension is white metal.
+ljus_break_it(NAME gltf-specular-glossiness HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "surface.metal = 0;"
+    TO   ""
+    CASES "load_gltf: what its materials become")
+
+# The picture of the older extension is looked up by the first texture coordinates.
+ljus_break_it(NAME gltf-diffuse-texture HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "field ? color_texture(*surface.material) : std::nullopt;"
+    TO   "std::optional<JsonField>{};"
+    CASES "load_gltf: pictures of colour*")

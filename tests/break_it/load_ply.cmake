@@ -18,7 +18,7 @@ ljus_break_it(NAME ply-list-length HEADER io/load_ply.hpp TEST load_ply
 
 # Every list of a face names vertices.
 ljus_break_it(NAME ply-other-list HEADER io/load_ply.hpp TEST load_ply
-    FROM "face && !corners &&"
+    FROM "face && !found &&"
     TO   "face ||"
     CASES "load_ply: what other programs write")
 
@@ -39,3 +39,21 @@ ljus_break_it(NAME vertex-colors-clamp HEADER io/detail/mesh_builder.hpp TEST lo
     FROM "return glm::clamp(fourth(), RgbT<T>{0}, RgbT<T>{1});"
     TO   "return fourth();"
     CASES "load_ply: colours that vary widely*")
+
+# The corners of a face share the texture coordinates of the first.
+ljus_break_it(NAME ply-face-uv HEADER io/load_ply.hpp TEST load_ply
+    FROM "add_uv(face_uv[2 * k], face_uv[2 * k + 1])"
+    TO   "add_uv(face_uv[0], face_uv[1])"
+    CASES "load_ply: the corners of a face*")
+
+# Every second triangle of a strip shows its back.
+ljus_break_it(NAME ply-strip HEADER io/load_ply.hpp TEST load_ply
+    FROM "const std::size_t odd = in_strip % 2;"
+    TO   "const std::size_t odd = 0;"
+    CASES "load_ply: strips of triangles*")
+
+# Strips are joined to each other.
+ljus_break_it(NAME ply-strip-end HEADER io/load_ply.hpp TEST load_ply
+    FROM "in_strip = 0;\n                continue;"
+    TO   "continue;"
+    CASES "load_ply: strips of triangles*")

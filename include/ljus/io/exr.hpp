@@ -137,6 +137,16 @@ public:
                    "convert it to them");
     }
 
+    // Refuses a luminance that has colours beside it, which would be lost.
+    void require_no_chroma(int part) const {
+        const exr_attr_chlist_t* list = nullptr;
+        require(exr_get_channels(file_.context, part, &list), "in its header");
+        for (int i = 0; i < list->num_channels; ++i)
+            if (std::string_view(list->entries[i].name.str) == "RY")
+                refuse("has a luminance Y with colours in RY and BY, which are not "
+                       "read; save it with R, G and B, or load its layer 'Y' alone");
+    }
+
     // Decodes layers; refuses them if they have more than `most` pixels together.
     [[nodiscard]] std::vector<LayerT<float>> decode(const std::vector<ExrLayer>& wanted,
                                                     long long most) const {
@@ -245,6 +255,9 @@ private:
             }
             add_layers(part, names);
         }
+        if (layers_.empty())
+            refuse("has only deep pixels, or channels with fewer values than pixels, "
+                   "which are not read; save it with R, G and B for each pixel");
     }
     void add_layers(int part,
                     const std::vector<std::pair<std::string, std::string>>& names) {
@@ -514,7 +527,7 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 ///         the file has several parts, a channel without a layer name has the name of
 ///         its part. A layer has the pixels of its part's data window.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is
-///         damaged, or has more than 2^27 pixels in all layers together.
+///         damaged, has no layer, or has more than 2^27 pixels in all layers together.
 /// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
 template <std::floating_point T = float>
 [[nodiscard]] std::vector<LayerT<T>> load_exr_layers(const std::string& path) {
@@ -530,8 +543,8 @@ template <std::floating_point T = float>
 /// picture itself: in colour from channels R, G and B, or in grey from a channel Y.
 /// \return The pixels of the data window. They may be negative, infinite or NaN.
 /// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
-///         (the message lists its layers), has other primaries than sRGB, or has more
-///         than 2^25 pixels.
+///         (the message lists its layers), has other primaries than sRGB, has more than
+///         2^25 pixels, or, for an empty name, has colours beside the luminance Y.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_exr(const std::string& path,
                                  const std::string& layer = "") {
@@ -552,7 +565,10 @@ template <std::floating_point T = float>
         reader.refuse(detail::join(
             {"has no ",
              layer.empty() ? "picture of R, G and B" : "layer '" + shown(layer) + "'",
-             "; it has", shown(names, 400)}));
+             "; it has", shown(names, 400),
+             layer.empty() ? ": load one by its name, or save it as R, G and B" : ""}));
+    if (layer.empty() && found->channels.size() == 1)
+        reader.require_no_chroma(found->part);
     reader.require_srgb(found->part);
     auto layers = reader.decode({*found}, detail::max_image_pixels);
     return detail::layer_in<T>(std::move(layers.front())).image;

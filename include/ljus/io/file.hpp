@@ -149,6 +149,9 @@ void read_in_pieces(const std::string& path, std::size_t most, Use&& use) {
         size += got;
         last = got < wanted;
         const std::string_view text(piece.data(), left + got);
+        if (size == got && text.starts_with("version https://git-lfs."))
+            detail::fail_to_read(path, "it only stands for a file that Git LFS keeps; "
+                                       "`git lfs pull` brings the file itself");
         const std::size_t used = use(text, last);
         if (size > most)
             detail::fail_to_read(

@@ -121,13 +121,22 @@ inline void read_rgbe_row(ByteReader& reader,
         return read_rgbe_runs(reader, row);
     }
     row.clear(); // grows pixel by pixel, so that a short file takes little memory
-    while (row.size() < width) {
+    std::array<unsigned char, 4> rgbe{};
+    for (int digit = 0; row.size() < width;) {
         if (reader.left() < 4) reader.fail("its last row is incomplete");
-        auto& rgbe = row.emplace_back();
         for (unsigned char& byte : rgbe) byte = reader.next();
-        if (rgbe[0] == 1 && rgbe[1] == 1 && rgbe[2] == 1)
-            reader.fail("it has the run-length coding from before 1991, which is not "
-                        "supported");
+        if (rgbe[0] != 1 || rgbe[1] != 1 || rgbe[2] != 1) {
+            row.push_back(rgbe);
+            digit = 0;
+            continue;
+        }
+        // The coding from before 1991: E repeats of the pixel before. Of two such
+        // pixels, the second one gives the higher byte of the number of repeats.
+        const std::size_t count = std::size_t{rgbe[3]} << 8 * digit;
+        if (row.empty() || digit > 1 || count > width - row.size())
+            reader.fail("a run of its repeated pixels leaves its row or repeats none");
+        row.insert(row.end(), count, std::array(row.back()));
+        ++digit;
     }
 }
 
@@ -143,13 +152,13 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 
 } // namespace detail
 
-/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded.
+/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded, by
+/// today's coding or by that from before 1991.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
 ///         header.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
 ///         an unsupported kind (XYZE, other primaries than those of sRGB, a gamma,
-///         another pixel order, the run-length coding from before 1991), or is shorter
-///         or longer than its header says.
+///         another pixel order), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
@@ -173,6 +182,8 @@ template <std::floating_point T = float>
         const bool three = line.starts_with("COLORCORR=");
         if (!three && !line.starts_with("EXPOSURE=")) continue;
         const auto numbers = detail::header_numbers(line, three ? 10 : 9);
+        // So written where the exposure is unknown.
+        if (!three && numbers == std::vector{0.0}) continue;
         const bool good =
             numbers.size() == (three ? 3u : 1u) &&
             std::all_of(numbers.begin(), numbers.end(), [](double number) {

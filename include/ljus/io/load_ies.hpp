@@ -17,7 +17,7 @@ namespace ljus {
 /// \brief Files of the North American standard LM-63 \cite lm63, in which makers of
 /// lamps publish measurements. Chapter: \ref ch_lamps.
 ///
-/// This header reads the versions of 1986, 1991, 1995 and 2002, with all types of
+/// This header reads the versions of 1986, 1991, 1995, 2002 and 2019, with all types of
 /// photometry, all symmetries, `TILT=NONE` and `TILT=INCLUDE`. A tilt table says how a
 /// lamp dims when its luminaire is tilted; it is read and not used.
 /// \{
@@ -53,18 +53,29 @@ struct IesReader {
         ++line;
         return take_line(rest);
     }
-    double number(const char* what) {
-        std::string_view word = words.next();
-        while (word.empty() && !rest.empty()) {
-            words.rest = take();
-            word = words.next();
+    /// The next word of the line, up to a blank or a comma; empty at its end, and
+    /// between a blank and a comma.
+    std::string_view word() {
+        const std::string_view to_blank = words.next();
+        const std::string_view text = to_blank.substr(0, to_blank.find(','));
+        if (text.size() < to_blank.size()) {
+            const char* const next = text.data() + text.size() + 1;
+            const char* const end = words.rest.data() + words.rest.size();
+            words.rest = {next, static_cast<std::size_t>(end - next)};
         }
-        if (word.empty()) refuse_line(join({"the file ends before ", what}));
-        if (word.ends_with(',')) word.remove_suffix(1);
-        const double value = number_of(word);
+        return text;
+    }
+    double number(const char* what) {
+        std::string_view text = word();
+        while (text.empty() && !(words.rest.empty() && rest.empty())) {
+            if (words.rest.empty()) words.rest = take();
+            text = word();
+        }
+        if (text.empty()) refuse_line(join({"the file ends before ", what}));
+        const double value = number_of(text);
         if (!std::isfinite(value))
             refuse_line(join(
-                {what, " is '", shown(std::string(word)), "'; it must be a number"}));
+                {what, " is '", shown(std::string(text)), "'; it must be a number"}));
         return value;
     }
     double number(const char* what, double low, double high) {
@@ -194,6 +205,7 @@ struct IesGrid {
 [[nodiscard, gnu::cold]] inline IesLamp read_ies(std::string_view source,
                                                  const std::string& file) {
     detail::IesReader in{detail::plain_text(source, file), file};
+    const bool since_2019 = in.rest.starts_with("IES:"); // before, "IESNA:" or others
     std::string_view tilt;
     while (!tilt.starts_with("TILT=")) {
         if (in.rest.empty())
@@ -221,7 +233,10 @@ struct IesGrid {
     (void)in.count("the unit of length", 1, 2);
     for (int side = 0; side < 3; ++side) (void)in.number("a side of the luminaire");
     factor *= in.number("the ballast factor", 1e-9, 1e9);
-    factor *= in.number("the ballast-lamp factor", 1e-9, 1e9);
+    // Since 2019, a number in its place tells how the file was made, such as 1.1 for an
+    // accredited laboratory.
+    const double second = in.number("the ballast-lamp factor", 1e-9, 1e9);
+    if (!since_2019) factor *= second;
     IesLamp lamp{.lumens = lumens < 0 ? -1 : lamps * lumens,
                  .watts = in.number("the power", 0, 1e12)};
 

@@ -171,6 +171,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
                      " says; save it as sRGB"}));
     const BmpHead bmp(bytes);
     const bool is_bmp = !png && !jpeg;
+    const std::string rare_bmp =
+        "is a BMP file that is damaged or of a rare kind; save it as PNG";
     if (is_bmp && bmp.compression != 0 && bmp.compression != 3)
         refuse("is a BMP file that is compressed; save it without, or as PNG");
     // A 16-bit channel takes twice the memory before it is reduced to 8 bits.
@@ -203,7 +205,9 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     const auto size = static_cast<int>(read.size());
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        refuse("is not a picture that can be read: its header is damaged or unknown");
+        refuse(is_bmp ? rare_bmp
+                      : "is not a picture that can be read: its header is damaged or "
+                        "unknown");
     // A negative height in a BMP file means that its rows are stored from the top.
     const long long high = std::abs(static_cast<long long>(height));
     require_size(width, high);
@@ -219,7 +223,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     picture.has_alpha = channels % 2 == 0;
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // may quote bytes of the file
-    refuse(join({"is damaged: ", shown(why != nullptr ? why : "error")}));
+    const std::string reason = why != nullptr ? why : "error";
+    refuse(is_bmp ? rare_bmp : join({"is damaged: ", shown(reason)}));
     return picture;
 }
 #endif

@@ -105,6 +105,10 @@ private:
                 read_element_line(words);
             } else if (keyword == "property") {
                 read_property(words);
+            } else if (keyword == "comment" && words.next() == "TextureFile") {
+                mesh_.report.notes.push_back(
+                    join({"the header names the picture ", shown(words.name()),
+                          ", which is not loaded; a material of yours can have it."}));
             } else if (!keyword.empty() && keyword != "comment" &&
                        keyword != "obj_info" && mesh_.report.notes.empty()) {
                 mesh_.report.notes.push_back(
@@ -210,7 +214,7 @@ private:
             std::find_if(elements_.begin(), elements_.end(), is_vertex);
         std::vector<std::pair<const PlyElement*, std::string_view>> later;
         for (auto e = elements_.begin(); e != elements_.end(); ++e) {
-            const bool early = e < vertices && e->name == "face";
+            const bool early = e < vertices && has_triangles(*e);
             if (early) later.emplace_back(&*e, rest_);
             read_element(*e, early);
         }
@@ -228,6 +232,12 @@ private:
                       " bytes behind the last element that its header lists; they are "
                       "not used."}));
     }
+    static bool has_triangles(const PlyElement& element) {
+        return element.name == "face" || element.name == "tristrips";
+    }
+    static bool is_face_uv(const PlyProperty& property) {
+        return property.count && property.name == "texcoord";
+    }
     static bool is_corners(const PlyProperty& property) {
         return property.count &&
                (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -240,7 +250,8 @@ private:
                 return whole(at) && std::count(at.begin(), at.end(), int(i)) > 0;
             };
             if (in(has.position) || in(has.normal) || in(has.color) || in(has.uv) ||
-                (element.name == "face" && is_corners(property)))
+                (has_triangles(element) && is_corners(property)) ||
+                (element.name == "face" && is_face_uv(property)))
                 continue;
             unused.append(unused.empty() ? "" : ", ").append(property.name);
         }
@@ -256,34 +267,39 @@ private:
     // Reads all elements of one kind; with `pass_over` faces are only skipped.
     void read_element(const PlyElement& element, bool pass_over) {
         const bool vertex = element.name == "vertex";
-        const bool face = element.name == "face" && !pass_over;
+        const bool face = has_triangles(element) && !pass_over;
         const PlyVertex has = vertex ? properties_of(element) : PlyVertex{};
         if (vertex && !whole(has.position))
             refuse("its vertices must have the properties x, y and z");
         if (element.properties.empty()) return; // such elements take no bytes
         if (vertex || face) note_unused(element, has);
-        if (element.count > 0 && !vertex && element.name != "face")
+        if (element.count > 0 && !vertex && !has_triangles(element))
             mesh_.report.notes.push_back(join(
                 {"the elements ", shown(std::string(element.name)), " are not used."}));
-        std::vector<double> values(element.properties.size());
+        std::vector<double> values(element.properties.size()), corners, face_uv;
         for (std::size_t i = 0; i < element.count; ++i) {
             ++mesh_.place;
-            bool corners = false;
+            corners.clear();
+            face_uv.clear();
+            bool found = false;
             for (std::size_t k = 0; k < values.size(); ++k) {
                 const PlyProperty& property = element.properties[k];
                 if (!property.count) {
                     values[k] = number(property.type, element, i);
                     continue;
                 }
-                const bool names_vertices = face && !corners && is_corners(property);
-                corners = corners || names_vertices;
+                const bool names_vertices = face && !found && is_corners(property);
+                const bool is_uv = face && is_face_uv(property);
+                found = found || names_vertices;
                 for (std::size_t n = list_length(property, element, i); n > 0; --n) {
                     const double value = number(property.type, element, i);
-                    if (names_vertices) add_corner(value);
+                    if (names_vertices) corners.push_back(value);
+                    if (is_uv) face_uv.push_back(value);
                 }
             }
             if (vertex) add_vertex(element, has, values);
-            if (corners) mesh_.end_face();
+            if (found && element.name == "face") add_face(corners, face_uv);
+            if (found && element.name != "face") add_strips(corners);
         }
     }
     void add_vertex(const PlyElement& element, const PlyVertex& has,
@@ -296,7 +312,7 @@ private:
         normals_ = whole(has.normal);
         if (normals_) mesh_.add_normal(vector(has.normal));
         uv_ = whole(has.uv);
-        if (uv_) mesh_.add_uv(value(has.uv[0]), value(has.uv[1]));
+        if (uv_) add_uv(value(has.uv[0]), value(has.uv[1]));
         if (!whole(has.color)) return;
         glm::dvec3 color = vector(has.color);
         for (int k = 0; k < 3; ++k) {
@@ -309,12 +325,42 @@ private:
         }
         mesh_.add_color(color);
     }
-    void add_corner(double value) {
-        const bool good = value >= 0 && value < double(no_number);
-        const std::uint32_t at = good ? static_cast<std::uint32_t>(value) : no_number;
-        const bool whole = good && double(at) == value;
-        mesh_.add_corner(whole ? at : no_number, uv_ ? at : no_number,
-                         normals_ ? at : no_number);
+    std::uint32_t add_uv(double u, double v) {
+        mesh_.add_uv(u, v);
+        return uv_count_++;
+    }
+    // Adds a face, whose corners may have texture coordinates of their own.
+    void add_face(const std::vector<double>& corners,
+                  const std::vector<double>& face_uv) {
+        const bool own_uv = face_uv.size() == 2 * corners.size();
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double value = corners[k];
+            const bool good = value >= 0 && value < double(no_number);
+            const std::uint32_t at =
+                good ? static_cast<std::uint32_t>(value) : no_number;
+            const bool whole = good && double(at) == value;
+            const std::uint32_t uv = own_uv ? add_uv(face_uv[2 * k], face_uv[2 * k + 1])
+                                     : uv_  ? at
+                                            : no_number;
+            mesh_.add_corner(whole ? at : no_number, uv, normals_ ? at : no_number);
+        }
+        mesh_.end_face();
+    }
+
+    // Adds strips of triangles, each of which ends with -1. Every second triangle of a
+    // strip is wound the other way.
+    void add_strips(const std::vector<double>& corners) {
+        for (std::size_t i = 0, in_strip = 0; i < corners.size(); ++i) {
+            if (corners[i] == -1) {
+                in_strip = 0;
+                continue;
+            }
+            if (in_strip >= 2) {
+                const std::size_t odd = in_strip % 2;
+                add_face({corners[i - 2 + odd], corners[i - 1 - odd], corners[i]}, {});
+            }
+            ++in_strip;
+        }
     }
 
     std::string_view rest_; // unread part of the file
@@ -323,6 +369,7 @@ private:
     std::vector<PlyElement> elements_{};
     bool ascii_ = false, big_endian_ = false;
     bool normals_ = false, uv_ = false; // of the vertices
+    std::uint32_t uv_count_ = 0;
 };
 
 } // namespace detail
@@ -330,9 +377,11 @@ private:
 /// Reads a mesh from the bytes of a PLY file: text or binary of either byte order.
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
-/// with diffuse_ before each). Faces may have any number of corners. Colours are sRGB,
-/// as integers from 0 to the largest value of their type or as floats from 0 to 1. They
-/// become a picture on a white mesh.
+/// with diffuse_ before each). Faces may have any number of corners, and a list
+/// texcoord with two texture coordinates for each. The list of an element tristrips
+/// has strips of triangles, each of which ends with -1. Colours are sRGB, as integers
+/// from 0 to the largest value of their type or as floats from 0 to 1. They become a
+/// picture on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().

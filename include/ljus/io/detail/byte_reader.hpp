@@ -28,11 +28,15 @@ struct ByteReader {
         return bytes[position++];
     }
 
-    // Reads the next word, and one character of white space after it.
+    // Reads the next word, and one character of white space after it. A '#' before the
+    // word begins a comment, to the end of its line.
     std::string word() {
         std::string text;
         char c = to_char(next());
-        while (is_space(c)) c = to_char(next());
+        while (is_space(c) || c == '#') {
+            if (c == '#') (void)line();
+            c = to_char(next());
+        }
         for (; !is_space(c); c = to_char(next())) {
             text += c;
             if (text.size() > 64) fail("its header has a word of more than 64 letters");

@@ -108,19 +108,22 @@ private:
         if (!text(version).starts_with("2."))
             refuse_value(version, "2.0, the version of glTF that is known");
         static constexpr std::string_view known[]{
-            "KHR_lights_punctual",  "KHR_materials_emissive_strength",
-            "KHR_materials_ior",    "KHR_materials_transmission",
-            "KHR_materials_unlit",  "KHR_mesh_quantization",
-            "KHR_texture_transform"};
+            "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+            "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+            "KHR_materials_transmission", "KHR_materials_unlit",
+            "KHR_mesh_quantization",      "KHR_texture_transform"};
         const auto least = find(member(file_.root(), "asset"), "minVersion");
         if (least && text(*least) != "2.0")
             refuse_value(*least, "2.0, the version of glTF that is known");
+        const auto is_choice = [](const std::string& name) {
+            return name == "KHR_materials_variants"; // a mesh has its first material
+        };
         for (const JsonField& name : entries(find(file_.root(), "extensionsRequired")))
-            require_known(name, known);
+            if (!is_choice(text(name))) require_known(name, known);
         // read_material() notes the extensions of materials.
         for (const JsonField& name : entries(find(file_.root(), "extensionsUsed")))
-            if (!text(name).starts_with("KHR_materials_") &&
-                !is_one_of(text(name), known))
+            if (is_choice(text(name)) || (!text(name).starts_with("KHR_materials_") &&
+                                          !is_one_of(text(name), known)))
                 note(name, join({"is ", shown(text(name)),
                                  ", which is not known: what it adds is left out"}));
     }
@@ -362,15 +365,15 @@ private:
                        std::size_t count) {
         Surface surface;
         const auto field = find(primitive, "material");
-        std::optional<JsonField> colors;
         if (field) {
             surface.number = file_.number_in(*field, "materials");
             surface.material.emplace(file_.named(*field, "materials"));
-            if (const auto pbr = find(*surface.material, "pbrMetallicRoughness")) {
+            if (specular_glossiness(*surface.material)) {
+                surface.metal = 0;
+            } else if (const auto pbr =
+                           find(*surface.material, "pbrMetallicRoughness")) {
                 surface.metal = number_of(*pbr, "metallicFactor", 1, 0, 1);
                 surface.roughness = number_of(*pbr, "roughnessFactor", 1, 0, 1);
-                if (const auto found = find(*pbr, "baseColorTexture"))
-                    colors.emplace(*found);
                 const auto texture = find(*pbr, "metallicRoughnessTexture");
                 if (texture && settings_.pictures) {
                     surface.uv = uv_of(*texture, attributes, count);
@@ -378,6 +381,7 @@ private:
                 }
             }
         }
+        const auto colors = field ? color_texture(*surface.material) : std::nullopt;
         // Without a picture the first set is kept, for pictures that a user may add.
         const std::vector<double> uv =
             uv_of(colors ? *colors : primitive, attributes, count);
@@ -447,8 +451,7 @@ private:
     void read_details(const JsonField& field, double alpha, MeshMaterial& material,
                       std::vector<std::string>& unused) {
         const auto texture = find(field, "normalTexture");
-        const auto pbr = find(field, "pbrMetallicRoughness");
-        const auto colors = pbr ? find(*pbr, "baseColorTexture") : std::nullopt;
+        const auto colors = color_texture(field);
         if (texture) {
             MeshMaterial lookup;
             const bool whole = read_lookup(*texture, lookup);
@@ -474,7 +477,7 @@ private:
         }
         const auto mode = find(field, "alphaMode");
         if (mode && text(*mode) == "MASK" && colors && alpha > 0) {
-            material.mask = {material.picture.name, "a baseColorTexture"};
+            material.mask = material.picture;
             material.cutoff = number_of(field, "alphaCutoff", 0.5, 0, 1e6) / alpha;
         } else if (mode && text(*mode) != "OPAQUE") {
             unused.push_back("alphaMode " + shown(text(*mode)));
@@ -547,23 +550,39 @@ private:
         return name ? text(*name) : std::string();
     }
 
+    // An older extension that stands in place of pbrMetallicRoughness.
+    static std::optional<JsonField> specular_glossiness(const JsonField& material) {
+        const auto all = find(material, "extensions");
+        if (!all) return {};
+        return find(*all, "KHR_materials_pbrSpecularGlossiness");
+    }
+    static std::optional<JsonField> color_texture(const JsonField& material) {
+        if (const auto gloss = specular_glossiness(material))
+            return find(*gloss, "diffuseTexture");
+        const auto pbr = find(material, "pbrMetallicRoughness");
+        return pbr ? find(*pbr, "baseColorTexture") : std::nullopt;
+    }
+
     MeshMaterial read_material(const JsonField& field) {
         MeshMaterial material;
         material.diffuse = glm::dvec3(1);
         material.name = shown(name_of(field));
         std::vector<std::string> unused;
         double alpha = 1;
-        if (const auto pbr = find(field, "pbrMetallicRoughness")) {
-            if (const auto color = find(*pbr, "baseColorFactor")) {
+        const auto gloss = specular_glossiness(field);
+        if (const auto pbr = gloss ? gloss : find(field, "pbrMetallicRoughness")) {
+            if (const auto color =
+                    find(*pbr, gloss ? "diffuseFactor" : "baseColorFactor")) {
                 const std::vector<double> c = list_of(*color, 4);
                 material.diffuse = glm::clamp(glm::dvec3{c[0], c[1], c[2]},
                                               glm::dvec3(0), glm::dvec3(1));
                 alpha = c[3];
             }
-            if (const auto texture = find(*pbr, "baseColorTexture")) {
-                material.picture = {picture_of(*texture), "a baseColorTexture"};
+            if (const auto texture = color_texture(field)) {
+                const std::string name = gloss ? "diffuseTexture" : "baseColorTexture";
+                material.picture = {picture_of(*texture), "a " + name};
                 if (!read_lookup(*texture, material))
-                    unused.push_back("a part of how baseColorTexture lies");
+                    unused.push_back("a part of how " + name + " lies");
             }
             const double metal = number_of(*pbr, "metallicFactor", 1, 0, 1);
             if (metal > 0 && metal < 1)
@@ -600,6 +619,8 @@ private:
                     unused.push_back("colour and roughness of glass");
                 else if (material.dissolve < 1)
                     unused.push_back("a transmissionFactor of at most 0.5");
+            } else if (part.key() == "KHR_materials_pbrSpecularGlossiness") {
+                unused.push_back("specular colours and glossiness");
             } else if (part.key() == "KHR_materials_unlit") {
                 unused.push_back("KHR_materials_unlit (matt: it needs light)");
             } else {
