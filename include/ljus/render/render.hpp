@@ -38,8 +38,8 @@ struct RenderSettings {
 
 namespace detail {
 
-/// Refuses a scene with fog, unless the renderer, or the renderer whose paths it selects,
-/// has a member `carries_fog`.
+/// Refuses a scene with fog, unless the renderer, or the renderer whose paths it
+/// selects, has a member `carries_fog`.
 template <typename R>
 void require_fog_carried([[maybe_unused]] const R& renderer) {
     constexpr bool carries = requires {
