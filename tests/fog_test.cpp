@@ -22,6 +22,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/media/fog.hpp"
+#include "ljus/path/light_transport.hpp"
 #include "ljus/radiosity/patches.hpp"
 #include "ljus/render/first_hit.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -632,6 +633,11 @@ TEST_CASE("fog: what does not carry it says so") {
         "it by path tracing, or remove the fog.";
     CHECK(refusal([&] { (void)render(WhittedTracer(world), camera, small); }) ==
           sentence);
+    const WhittedTracer whitted(world);
+    const PathTracer paths(world);
+    CHECK(refusal([&] { (void)render(OnlyPaths(whitted, "EL"), camera, small); }) ==
+          sentence);
+    CHECK(refusal([&] { (void)render(OnlyPaths(paths, "EL"), camera, small); }) == "");
     CHECK(refusal([&] { (void)make_patches(world); }).find("by radiosity;") !=
           std::string::npos);
     CHECK(refusal([&] {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ljus/geometry/disc.hpp"
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/normal_map.hpp"
 #include "ljus/photons/tracing.hpp"
@@ -295,6 +296,18 @@ TEST_CASE("picture lamp: an even picture is a plain lamp, and a half black one h
     const Mean b = flux_by_paths(shown, {}, 20000);
     CHECK(std::abs(apart(a, b)) < 5);
     CHECK(b.error() < 0.02 * b.mean);
+}
+
+TEST_CASE("picture lamp: one without a radiance is remarked on") {
+    const auto remarks = [](const Rgb& radiance) {
+        return path_remarks(World(make_scene(
+            placed(a_quad<float>, PictureLamp{}, radiance),
+            placed(Sphere{.center{0, 9, 0}, .radius = 1}, Lambertian{}, Rgb{1}))));
+    };
+    CHECK(remarks(Rgb{1}).empty());
+    const auto dark = remarks(Rgb{0});
+    REQUIRE(dark.size() == 1);
+    CHECK(dark[0].starts_with("1 object(s) have the picture of a lamp, but no radi"));
 }
 
 TEST_CASE("picture lamp: a normal map over it leaves its picture") {

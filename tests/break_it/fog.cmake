@@ -113,3 +113,9 @@ ljus_break_it(NAME fog-last-ray HEADER path/fog_path.hpp TEST fog
     path.met"
     TO   "    path.met"
     CASES "fog: at the limit of depth*")
+
+# Who selects paths of a renderer is not asked whether it carries fog.
+ljus_break_it(NAME fog-refused-selection HEADER render/render.hpp TEST fog
+    FROM "    if constexpr (requires { renderer.whole(); })"
+    TO   "    if constexpr (requires { renderer.nothing(); })"
+    CASES "fog: what does not carry*")

@@ -63,3 +63,9 @@ ljus_break_it(NAME picture_lamp-textured HEADER materials/textured.hpp TEST pict
     FROM "return emission_picture(m.base);"
     TO   "static auto other = emission_picture(m.base); other.pixels.back() = other.pixels[0]; return other;"
     CASES "picture lamp: a normal map*")
+
+# Every object with a picture is said to be dark.
+ljus_break_it(NAME picture_lamp-remark HEADER inspect/scene_remarks.hpp TEST picture_lamp
+    FROM "shows && object.light == no_light ? 1 : 0"
+    TO   "shows ? 1 : 0"
+    CASES "picture lamp: one without*")

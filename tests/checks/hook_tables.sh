@@ -15,7 +15,7 @@ of_a_material_of_radiosity=diffuse_albedo
 of_a_renderer=radiance
 of_a_kernel=kernel_weight
 of_a_camera=camera_ray
-of_a_texture=color_at
+of_a_texture="color_at turns_normals"
 of_a_stream="next_1d next_2d next_3d start_bounce"
 # Functions that the concepts require of every light, of near ones and of far ones.
 of_a_light="emission_point pdf_emission power sample_arrival sample_emission

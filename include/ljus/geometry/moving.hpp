@@ -59,8 +59,8 @@ requires(!detail::is_moving<S>)
 /// \name As a shape
 /// \{
 
-/// Intersects a ray with the shape at the ray's time. Compute selects the arithmetic, if
-/// the shape offers a choice.
+/// Intersects a ray with the shape at the ray's time. Compute selects the arithmetic,
+/// if the shape offers a choice.
 template <typename Compute = void, std::floating_point T, typename S>
 [[nodiscard]] auto intersect(const RayT<T>& ray, const Moving<S>& moving) noexcept {
     const S now = at_time(moving, ray.time);

@@ -263,6 +263,19 @@ template <AnyWorld W>
     return steep;
 }
 
+/// The number of objects whose material shows a picture, but which have no radiance.
+template <AnyWorld W>
+[[nodiscard, gnu::cold]] long long dark_pictures([[maybe_unused]] const W& world) {
+    long long dark = 0;
+    if constexpr (W::lists_pictures)
+        world.each_object([&](ObjectId, const auto& object) {
+            const bool shows = world.visit_material(
+                object.material, []<typename M>(const M&) { return ShowsPicture<M>; });
+            dark += shows && object.light == no_light ? 1 : 0;
+        });
+    return dark;
+}
+
 /// Adds remarks about surfaces of different objects that coincide. There is one remark
 /// for each rule that decides which surface a ray meets.
 /// \param type_of  The name of an object's shape, such as "QuadT<float>".
@@ -447,6 +460,11 @@ scene_remarks(const W& world, const PhotonMappingSettings& settings) {
             {to_text(steep), " material(s) have a sigma above 1.6 radians, where the "
                              "models of rough surfaces hardly change: divide degrees "
                              "by 57.3"}));
+    if (const long long dark = detail::dark_pictures(world); dark > 0)
+        remarks.push_back(
+            detail::join({to_text(dark),
+                          " object(s) have the picture of a lamp, but no radiance that "
+                          "it multiplies, and are dark: give them an emission"}));
     const std::size_t narrow =
         settings.direct == DirectLight::sampled ? detail::narrow_lobes(world) : 0;
     if (narrow > 0)

@@ -160,8 +160,8 @@ concept Material = std::floating_point<typename M::Scalar> &&
 };
 
 /// \name A material around another one
-/// A wrapper scatters like its base. Besides check() it needs the functions that it adds
-/// to the base, and those optional functions of the table above that the base has.
+/// A wrapper scatters like its base. Besides check() it needs the functions that it
+/// adds to the base, and those optional functions of the table above that the base has.
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a

@@ -37,13 +37,16 @@ struct RenderSettings {
 
 namespace detail {
 
-/// Refuses a scene with fog, unless the renderer has a member `carries_fog`.
+/// Refuses a scene with fog, unless the renderer, or the renderer whose paths it
+/// selects, has a member `carries_fog`.
 template <typename R>
 void require_fog_carried([[maybe_unused]] const R& renderer) {
     constexpr bool carries = requires {
         R::carries_fog;
     };
-    if constexpr (!carries && requires { renderer.world().has_fog(); })
+    if constexpr (requires { renderer.whole(); })
+        require_fog_carried(renderer.whole());
+    else if constexpr (!carries && requires { renderer.world().has_fog(); })
         require_no_fog(renderer.world(), "this renderer");
 }
 
