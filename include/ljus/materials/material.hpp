@@ -361,7 +361,7 @@ template <Material M>
         Hook{"at_point", "varies over the surface", "the same anywhere",
              requires(O m, V position, Uv uv) { at_point(m, position, uv); }},
         Hook{"uses_uv", "at_point() with uv", "uv is 0",
-             requires { M::uses_uv; }},
+             requires { requires M::uses_uv; }},
         Hook{"is_open", "holes that rays go through", "solid",
              requires(O m, V position, Uv uv) { is_open(m, position, uv); }},
         Hook{"normal_at", "a normal by a picture", "the shape's",
