@@ -18,14 +18,13 @@ using reader::Crate;
 
 static_assert(ljus::Shape<Crate>);
 
-namespace reader {
-/// The hook that lets a box move.
-Crate translated(const Crate& box, const Vec3& by) {
-    return {box.low + by, box.high + by};
-}
-} // namespace reader
-
 namespace {
+
+/// A box that can move.
+struct SlidingCrate : Crate {};
+SlidingCrate translated(const SlidingCrate& box, const Vec3& by) {
+    return {{box.low + by, box.high + by}};
+}
 
 bool inside(const Crate& box, const glm::dvec3& x) {
     bool all = true;
@@ -123,9 +122,9 @@ TEST_CASE("own shape: a scene finds it as its own shapes") {
 }
 
 TEST_CASE("own shape: it moves if it has translated()") {
-    using Moved = ljus::Moving<Crate>;
+    using Moved = ljus::Moving<SlidingCrate>;
     ljus::Scene<ljus::Shapes<Moved>, ljus::Materials<ljus::Lambertian>> scene;
-    scene.add(Moved{{{-1, -1, -1}, {1, 1, 1}}, {4, 0, 0}},
+    scene.add(Moved{{{{-1, -1, -1}, {1, 1, 1}}}, {4, 0, 0}},
               scene.add(ljus::Lambertian{}));
     const ljus::World world(std::move(scene));
     for (const float time : {0.0f, 0.5f, 1.0f})
