@@ -478,7 +478,8 @@ TEST_CASE("shape: which hooks a shape has, by name") {
         CHECK(flat == "bounds area sample_area normal point_at facet_of corners_of "
                       "texture_tangents translated ");
     CHECK(names(detail::shape_hooks<Moving<Quad>>()) ==
-          "bounds area sample_area texture_coordinates texture_tangents ");
+          "bounds area sample_area center_sample corners_of texture_coordinates "
+          "texture_tangents ");
     // A shape without an area has no points to choose; the one there is is of no use.
     const SurfacePoint none = sample_area(reader::Poor{}, Vec2{0.5f});
     CHECK(none.position == Vec3{0});
