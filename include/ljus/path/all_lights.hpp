@@ -184,6 +184,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 class SharedRaysT {
 public:
+    SharedRaysT() = default; ///< For no lamps.
     /// Computes the unoccluded light of all lamps that are not known to be occluded.
     /// \param rays      The largest number of rays to a lamp.
     /// \param verdicts  Called with a light's index; returns its known visibility.
@@ -247,7 +248,7 @@ private:
     }
 
     std::vector<std::optional<SeenLampT<T>>> lamps_; // by light
-    int rays_;
+    int rays_ = 0;
     T sent_by_all_ = T(0), scale_ = T(0), next_ = T(0);
     RgbT<T> all_{T(0)}, sent_{T(0)}, arrived_{T(0)};
 };
@@ -290,9 +291,9 @@ template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts
 [[nodiscard]] RgbT<T> analytic_lights(const W& world, const VertexT<T>& vertex,
                                       const LambertianT<T>& material, int rays,
                                       Context& context, const Verdicts& verdicts) {
-    std::optional<SharedRaysT<T>> shared;
-    if (rays > 1 && world.light_count() > 2)
-        shared.emplace(world, vertex, rays, verdicts, context.stream);
+    const bool shares = rays > 1 && world.light_count() > 2;
+    SharedRaysT<T> shared;
+    if (shares) shared = {world, vertex, rays, verdicts, context.stream};
     RgbT<T> sum{T(0)};
     for (std::uint32_t light = 0; light < world.light_count(); ++light) {
         const Verdict verdict = verdicts(light);
@@ -300,12 +301,12 @@ template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts
         int lamp_rays = rays;
         bool is_faint = false;
         if (verdict != Verdict::shadow)
-            lamp = shared ? shared->lamp(light) : seen_lamp(world, light, vertex);
-        if (shared && lamp) {
-            is_faint = shared->is_faint(sent_by(lamp));
-            lamp_rays = shared->rays_to(sent_by(lamp));
+            lamp = shares ? shared.lamp(light) : seen_lamp(world, light, vertex);
+        if (shares && lamp) {
+            is_faint = shared.is_faint(sent_by(lamp));
+            lamp_rays = shared.rays_to(sent_by(lamp));
             if (lamp_rays == 0) {
-                shared->add(unoccluded(*lamp, material), {}, 0, sent_by(lamp));
+                shared.add(unoccluded(*lamp, material), {}, 0, sent_by(lamp));
                 continue;
             }
         }
@@ -323,13 +324,13 @@ template <AnyWorld W, std::floating_point T, typename Context, typename Verdicts
                 analytic_light(world, light, *lamp, vertex, material, lamp_rays, place,
                                context.counts, verdict);
             if (is_faint)
-                shared->add(unoccluded(*lamp, material), arrived, lamp_rays,
-                            sent_by(lamp));
+                shared.add(unoccluded(*lamp, material), arrived, lamp_rays,
+                           sent_by(lamp));
             else
                 sum += arrived;
         }
     }
-    return shared ? sum + shared->light() : sum;
+    return shares ? sum + shared.light() : sum;
 }
 
 } // namespace detail
