@@ -332,8 +332,8 @@ private:
             between.drain(add);
             above.drain(add_reversed, true);
             select(all.data(), count, rank, axis);
-            low.push_all({all.data(), rank});
-            high.push_all({all.data() + rank, count - rank});
+            low.push_all({all.data(), all.data() + rank});
+            high.push_all({all.data() + rank, all.data() + count});
             return;
         }
         GrowingArray<Item> band = between.joined();
@@ -342,8 +342,9 @@ private:
             partition(band.data(), sorted.data(), band.size(), rank - front, axis);
             band = std::move(sorted);
         }
-        low.push_all({band.data(), rank - front});
-        high.push_all({band.data() + (rank - front), band.size() - (rank - front)});
+        Item* const middle = band.data() + (rank - front);
+        low.push_all({band.data(), middle});
+        high.push_all({middle, band.data() + band.size()});
         const auto push_reversed = [&](std::span<const Item> items) {
             high.push_all(items, true);
         };
