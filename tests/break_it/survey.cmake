@@ -51,4 +51,4 @@ ljus_break_it(NAME survey-never-met HEADER inspect/scene_remarks.hpp TEST survey
 ljus_break_it(NAME survey-hidden-hook HEADER materials/material.hpp TEST survey
     FROM "all &= own[i].provided ||"
     TO   "all &= true || own[i].provided ||"
-    CASES "survey: a wrapper that hides*")
+    CASES "survey: a wrapper that hides*" COMPILED)

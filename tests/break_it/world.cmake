@@ -4,8 +4,8 @@ ljus_break_it(NAME world-tie HEADER scene/world.hpp TEST world
     TO   "!(found->t <= ray.t_max)"
     CASES "world: on a tie*")
 
-# An array that grew without add() is taken.
+# An array that grew without add() is taken, and there is room for its boxes.
 ljus_break_it(NAME world-grown-array HEADER scene/world.hpp TEST world
     FROM "list.size() == objects_[type].size()"
-    TO   "list.size() >= objects_[type].size()"
+    TO   "(boxes.resize(list.size()), next = boxes.begin(), true)"
     CASES "world: what was changed in place*")
