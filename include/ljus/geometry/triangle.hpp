@@ -18,8 +18,8 @@
 namespace ljus {
 
 /// \defgroup triangle Triangles
-/// \brief Section 3.1.5 of the report: the ray-triangle intersection. Chapter: \ref
-/// ch_triangle.
+/// \brief Section 3.1.5 of the report: the ray-triangle intersection. Chapter:
+/// \ref ch_triangle.
 /// \{
 
 /// Three vertices. They turn counter-clockwise as seen from the side to which the

@@ -13,8 +13,8 @@
 namespace ljus {
 
 /// \defgroup eon Energy-preserving Oren-Nayar
-/// \brief Section 3.2.1 of the report: EON, a model that conserves energy \cite
-/// eon2025.
+/// \brief Section 3.2.1 of the report: EON, a model that conserves energy
+/// \cite eon2025.
 ///
 /// Fujii's second model, RoughModel::fon, loses the light that facets send to each
 /// other. EON adds this light to the BRDF by a closed form; see

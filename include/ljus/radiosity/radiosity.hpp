@@ -9,8 +9,8 @@
 namespace ljus {
 
 /// \defgroup radiosity Radiosity
-/// \brief Section 2.2 of the report, after Goral et al. \cite goral1984. Chapter: \ref
-/// ch_radiosity.
+/// \brief Section 2.2 of the report, after Goral et al. \cite goral1984. Chapter:
+/// \ref ch_radiosity.
 /// \{
 
 /// All settings of radiosity.
