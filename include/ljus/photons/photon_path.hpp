@@ -242,8 +242,9 @@ void store_photon(const W& world, const PathStateT<T>& path, const VertexT<T>& v
     if (!owned || !has(lobes(material), Lobes::non_specular)) return;
     const T landing = landing_factor(vertex, path.ray.direction);
     if (!(landing > T(0))) return;
-    out.push_back({at_rest(world, vertex).point.position, path.ray.direction,
-                   landing * path.throughput, light, kind,
+    Vec3T<T> position = vertex.point.position;
+    if constexpr (lists_moving<W>) position = at_rest(world, vertex).point.position;
+    out.push_back({position, path.ray.direction, landing * path.throughput, light, kind,
                    small_normal(vertex.point.normal)});
 }
 

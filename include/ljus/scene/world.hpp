@@ -621,8 +621,7 @@ private:
     decltype(S::prototypes) prototypes_; // to which shapes_ refer
     decltype(S::materials) materials_;
     decltype(S::media) fog_;
-    std::array<detail::GrowingArray<FrameT<Scalar>>,
-               std::tuple_size_v<decltype(S::shapes)>>
+    std::array<std::vector<FrameT<Scalar>>, std::tuple_size_v<decltype(S::shapes)>>
         frames_;
     std::size_t size_ = 0;
     BoxT<Scalar> box_{};
@@ -633,10 +632,10 @@ private:
     bool has_holes_ = false;
     BoxT<Scalar> contact_box_{};
     Tree tree_{};
-    detail::GrowingArray<ObjectId> ids_{};
+    std::vector<ObjectId> ids_{};
     Kept kept_{};
     std::vector<Lamp> lamps_{};
-    detail::GrowingArray<AddedId> lights_{}; // the index is in kept_, or in lamps_
+    std::vector<AddedId> lights_{}; // the index is in kept_, or in lamps_
     std::vector<RgbT<Scalar>> powers_{};
     LightChoice choice_{};
     Contacts contacts_{};
