@@ -721,6 +721,26 @@ TEST_CASE("photon mapping: a mapper has the settings that it has chosen") {
               .caustics.shares.empty());
 }
 
+TEST_CASE("photon mapping: a chosen radius that is out of range is refused") {
+    const auto made = [](double size) {
+        Scene<Shapes<QuadT<double>>, Materials<LambertianT<double>>> scene;
+        const auto grey = scene.add(LambertianT<double>{});
+        scene.add(QuadT<double>{{-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}},
+                  grey);
+        scene.add(
+            QuadT<double>{{-size, size, -size}, {2 * size, 0, 0}, {0, 0, 2 * size}},
+            grey, RgbT<double>{1.0});
+        const World room(std::move(scene));
+        PhotonMappingSettings settings{.indirect = IndirectLight::map};
+        settings.general.photons = 2000;
+        settings.general_estimate.radius = 0;
+        return double(PhotonMapper(room, settings).settings().general_estimate.radius);
+    };
+    const double radius = made(1);
+    CHECK(made(1e-14) == doctest::Approx(1e-14 * radius).epsilon(1e-5));
+    CHECK(refusal([&] { (void)made(1e-18); }).find("gather.radius is ") == 0);
+}
+
 TEST_CASE("photon mapping: the maps can be asked in another way") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     const Camera camera = room_camera<float>();

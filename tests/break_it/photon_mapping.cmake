@@ -154,3 +154,10 @@ ljus_break_it(NAME photon-mapping-faint HEADER render/photon_mapping.hpp
     FROM "std::min(T(1), 2 * carried)"
     TO   "std::min(T(1), 2 + carried)"
     CASES "photon mapping: faint branches*")
+
+# A radius that the mapper chooses may be too small for a float's square.
+ljus_break_it(NAME photon_mapping-chosen-radius HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "        check(settings_.general_estimate);"
+    TO   "        (void)0;"
+    CASES "photon mapping: a chosen radius*")
