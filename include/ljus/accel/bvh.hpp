@@ -10,9 +10,8 @@
 namespace ljus {
 
 /// \defgroup bvh Bounding volumes
-/// \brief Trees that spare intersection tests. The report's discussion names "an
-/// octree, axis-aligned bounding boxes, or a binary space partition". Chapter:
-/// \ref ch_bvh.
+/// \brief Trees that spare intersection tests. The student report proposes "an octree,
+/// axis-aligned bounding boxes, or a binary space partition". Chapter: \ref ch_bvh.
 /// \{
 
 /// The default observer of a traversal. It does nothing.

@@ -16,8 +16,8 @@ namespace ljus {
 /// \brief One mesh in many places. Chapter: \ref ch_instances.
 ///
 /// An instance is a reference to a mesh with an affine map. The inverse map transforms
-/// a ray to the space of the mesh \cite rubin1980. A scene that lists Instance keeps
-/// the meshes:
+/// a ray to the space of the mesh \cite rubin1980. If Instance is among the Shapes of a
+/// scene, the scene keeps the meshes:
 ///
 ///     const auto knot = scene.add(Mesh(data)); // kept once, and not visible itself
 ///     for (const Affine& place : places) scene.add(Instance(knot, place), glass);
@@ -43,8 +43,8 @@ template <std::floating_point T>
     return transform_sizes(map, transform_sizes(back, size));
 }
 
-/// For each triangle, the sum of the areas in the scene up to and including that
-/// triangle.
+/// For each triangle of the placed mesh, the sum of the areas of all triangles up to
+/// and including it.
 template <std::floating_point T>
 [[nodiscard]] std::vector<double> placed_areas(const MeshT<T>& mesh,
                                                const AffineT<T>& place) {
@@ -124,7 +124,8 @@ public:
     [[nodiscard]] Wide scale() const noexcept { return scale_; }
     /// The area in the scene, in squared scene units.
     [[nodiscard]] T area() const noexcept { return area_; }
-    /// The data of the instance, from which the key of a light map is computed.
+    /// The data of the instance. Saved maps contain a hash of it, so that a changed
+    /// scene is noticed.
     [[nodiscard]] Data data() const noexcept {
         return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
     }
@@ -275,8 +276,8 @@ texture_tangents(const InstanceT<T>& instance, const ShapeHitT<T>& hit) noexcept
             transform_vector(instance.place(), along_v)};
 }
 
-/// For each triangle, the sum of the areas in the scene up to and including that
-/// triangle. A lamp keeps these sums for sample_area().
+/// For each triangle of the placed mesh, the sum of the areas of all triangles up to
+/// and including it. A lamp keeps these sums for sample_area().
 /// \return The sums. Empty if the map stretches all directions by the same factor:
 ///         then the sums of the mesh serve.
 /// \cost O(n) time for n triangles, and 8 bytes per triangle.
@@ -334,8 +335,9 @@ template <std::floating_point T>
     return {point, pdf};
 }
 
-/// A box around an instance: the intersection of a box around the transformed bounding
-/// box of the mesh with a box around the transformed bounding sphere, an ellipsoid.
+/// A box around an instance. The map turns the mesh's bounding sphere into an
+/// ellipsoid, and its bounding box into a parallelepiped. The result is the
+/// intersection of the boxes around the two.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds(const InstanceT<T>& instance) noexcept {
     using Wide = Vec3T<WideT<T>>;

@@ -87,9 +87,9 @@ public:
     /// The number of halvings from all points down to a leaf.
     [[nodiscard]] int halvings() const noexcept { return parts_.shape.halvings; }
 
-    /// The index of the first point of a range, in the tree's order. After `depth`
-    /// halvings, at most halvings(), there are 2^depth ranges. A range ends where the
-    /// next one begins. For the range number 2^depth, the result is size().
+    /// The index of the first point of a range, in the tree's order. The points are
+    /// halved `depth` times into 2^depth ranges; depth is at most halvings(). A range
+    /// ends where the next one begins. For range number 2^depth, the result is size().
     [[nodiscard]] std::size_t first_point(int depth,
                                           std::uint64_t number) const noexcept {
         return std::min(size(),

@@ -14,8 +14,8 @@
 namespace ljus {
 
 /// \defgroup box Boxes
-/// \brief The report's discussion names "axis-aligned bounding boxes". Chapter:
-/// \ref ch_bvh.
+/// \brief Axis-aligned bounding boxes, which the student report proposes as a way to
+/// spare intersection tests. Chapter: \ref ch_bvh.
 /// \{
 
 /// An axis-aligned box, given by two opposite corners. The default box is empty.

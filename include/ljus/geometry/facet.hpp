@@ -108,8 +108,8 @@ namespace detail {
 namespace detail {
 
 /// The first 16 coefficients of theta / sin(theta) as a series in x = sin^2(theta / 2),
-/// the hypergeometric function 2F1(1, 1; 3/2; x). For x up to 1/4 they are exact to
-/// 1e-10.
+/// the hypergeometric function 2F1(1, 1; 3/2; x). For x up to 1/4 the sum of these
+/// terms is exact to 1e-10.
 inline constexpr auto angle_over_sine_series = [] {
     std::array<double, 16> terms{1};
     for (std::size_t n = 0; n + 1 < terms.size(); ++n)

@@ -82,8 +82,8 @@ template <std::floating_point T>
 ///         with f >= 0 is inside.
 /// \cost A square root and a division per blob. A ray that meets n blobs has at most
 ///       3n - 1 spans, which end where the ray enters, leaves or is nearest to a blob.
-///       A span costs n additions and usually no root or one; at worst 7 roots of 106
-///       steps each.
+///       A span costs n additions, and usually at most one search for a zero of f; at
+///       worst 7 searches of 106 steps each.
 /// \report{Section 2.1}
 template <typename Solver = QuarticPieces, std::floating_point T>
 [[nodiscard]] std::optional<T> intersect(const RayT<T>& ray, const MetaballsT<T>& balls,
@@ -112,8 +112,9 @@ surface_point(const MetaballsT<T>& balls, const RayT<T>& ray, const ShapeHitT<T>
                            hit.t, 64 * std::numeric_limits<WideT<T>>::epsilon() * size);
 }
 
-/// A sphere around metaballs. Where the fields of n blobs of positive weight add up to
-/// the level L, at least one field is L/n or more. The sphere contains all such points.
+/// A sphere around metaballs. On the surface the fields of the n blobs of positive
+/// weight add up to the level L or more, so that at least one field is L/n or more. The
+/// sphere contains all points where a field is that large.
 template <std::floating_point T>
 [[nodiscard]] SphereT<T> bounding_sphere(const MetaballsT<T>& balls) {
     using C = WideT<T>;

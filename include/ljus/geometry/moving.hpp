@@ -159,7 +159,7 @@ template <typename S>
     return center_sample(moving.shape);
 }
 
-/// The corners of the shape at time 0, where photons are stored.
+/// The corners of the shape at time 0. Photons on moving shapes are stored for time 0.
 template <typename S>
 requires requires(const S& shape) {
     corners_of(shape);

@@ -19,8 +19,8 @@ namespace ljus {
 ///
 /// The report allows every t >= 0. A ray that leaves a surface may then hit the same
 /// surface again at t = 0; spawn_ray() avoids this. A ray hits nothing if its direction
-/// is zero, if its range is empty, or if its origin, direction or range is not finite.
-/// Only t_max may be infinite.
+/// is zero, if its range is empty, or if its origin, its direction or t_min is not
+/// finite. `t_max` may be infinite.
 /// \report{Definition 3.1}
 // [ray]
 template <std::floating_point T>

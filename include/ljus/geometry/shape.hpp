@@ -26,7 +26,7 @@ namespace ljus {
 ///
 /// \snippet{lineno} ljus/geometry/shape.hpp shape hooks
 ///
-/// The survey prints which of these functions each shape of a scene has. The functions
+/// survey() prints which of these functions each shape of a scene has. The functions
 /// belong in the shape's own namespace, where argument-dependent lookup finds them.
 /// \{
 
@@ -95,7 +95,7 @@ concept FlatShape = Samplable<S> && requires(const S& shape) {
 namespace detail {
 
 /// Whether point_at() and sample_area() of a flat shape accept the result of normal().
-/// If so, normal() is called only once, when the scene is closed.
+/// If so, normal() is called only once per shape, when the World is made.
 template <typename S>
 inline constexpr bool is_plane = requires(const S& shape, Vec2T<ScalarOf<S>> u) {
     requires FlatShape<S>;

@@ -26,14 +26,14 @@ struct SurfacePointT {
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal; points outwards.
     T tilt = T(0); ///< Condition number of the plane of a flat shape; see
-                   ///< detail::add_tilt(). 0 if it is not used.
+                   ///< detail::add_tilt(). 0 on other shapes.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
 namespace detail {
 
-/// Copies a point component by component. A wider copy of values that have just been
-/// written would cause a store-forwarding stall.
+/// Copies a point component by component. A processor that has just stored single
+/// components would stall if it had to load several of them at once.
 template <std::floating_point T>
 inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexcept {
     const auto set = [](Vec3T<T>& a, const Vec3T<T>& b) {

@@ -153,7 +153,7 @@ template <std::floating_point T>
 
 /// The distance, in pixels, up to which other pixels influence a pixel's FLIP, for
 /// `ppd` pixels per degree of the visual field. It is three standard deviations of the
-/// eye's widest Gaussian; the edge detector is narrower.
+/// widest Gaussian among the filters of FLIP.
 [[nodiscard]] inline int eye_radius(double ppd) noexcept {
     return static_cast<int>(
         std::ceil(3 * std::sqrt(0.04 / 2) / std::numbers::pi * ppd));

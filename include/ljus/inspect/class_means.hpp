@@ -18,8 +18,9 @@ namespace ljus {
 /// pixels. RenderSettings::progress is not called.
 ///
 /// All classes are measured on the same random paths. The means of disjoint classes
-/// that cover all paths add up to the mean of the picture. A photon map reports one
-/// term for many paths, such as "DS+L"; the term counts as the shortest of them.
+/// that cover all paths add up to the mean of the picture. The light of a photon map is
+/// one number for paths of many lengths, such as "DS+L". All of it counts as light of
+/// the shortest of these paths, DSL.
 /// \return One mean per class, in W/(m^2 sr), the same for any number of threads.
 /// \throws std::invalid_argument  if the size or the number of rays is below 1, or if
 ///         the renderer does not support the fog of its scene.

@@ -14,8 +14,9 @@
 namespace ljus {
 
 /// \defgroup explain One pixel explained
-/// \brief The vertices of a pixel's paths, the owner of each contribution, and the
-/// sums, in Heckbert's letters \cite heckbert1990; see \ref light_path_expression.
+/// \brief The vertices of a pixel's paths, the technique that finds each contribution,
+/// and the sum of each kind of path. Paths are written in Heckbert's letters
+/// \cite heckbert1990; see \ref light_path_expression.
 /// \{
 
 namespace detail {

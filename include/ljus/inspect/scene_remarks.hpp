@@ -135,7 +135,7 @@ template <AnyWorld W, std::floating_point T, typename K>
 namespace detail {
 
 /// Warns if coordinates leave fewer than three digits for a shape, or if lengths are
-/// too large for T.
+/// too large for the precision of the world.
 ///
 /// A number x with a mantissa of p bits has an error of up to 2^-p x. The surface of a
 /// ball of radius r with coordinates up to c then has an error of 2^-p c / r, relative
@@ -263,7 +263,8 @@ template <AnyWorld W>
     return steep;
 }
 
-/// The number of objects whose material shows a picture, but which have no radiance.
+/// The number of objects whose material shows a picture as light, but which were added
+/// without a radiance, so that they are no lamps.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] long long dark_pictures([[maybe_unused]] const W& world) {
     long long dark = 0;

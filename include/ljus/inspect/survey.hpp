@@ -34,7 +34,7 @@ struct Plan {
     PlanItem shadow_photons;  ///< Shadow photons in the general map.
     PlanItem skipped_rays;    ///< Shadow rays that photons make unnecessary.
     PlanItem skipped_bounces; ///< Indirect rays that photons make unnecessary.
-    PlanItem irradiance;      ///< Irradiance points, which gather rays look up.
+    PlanItem irradiance;      ///< Irradiance points, which end the gather rays.
     PlanItem cache;           ///< Irradiance gathered at a few points of the picture.
     PlanItem thin_film;       ///< Thin surfaces, through which paths pass.
     PlanItem tree;            ///< A tree over the shapes, instead of a loop over them.

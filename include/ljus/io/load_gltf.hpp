@@ -23,8 +23,8 @@ namespace ljus {
 /// is read at the middle of each triangle, and its roughness is rounded to a multiple
 /// of 1/8. The faces of one metal may thus become several meshes. A material with a
 /// transmissionFactor above 0.5 is glass. All other materials are matt, even with
-/// KHR_materials_unlit. Of KHR_materials_pbrSpecularGlossiness, which stands in place
-/// of the newer members, the diffuse colours are used.
+/// KHR_materials_unlit. A material with the older KHR_materials_pbrSpecularGlossiness
+/// is matt and has the diffuse colours of that extension.
 ///
 /// The emissiveFactor, times the strength of KHR_materials_emissive_strength, is used
 /// as radiance, in W/(m^2 sr). A material with an emissiveTexture does not glow.

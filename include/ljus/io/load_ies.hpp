@@ -53,8 +53,8 @@ struct IesReader {
         ++line;
         return take_line(rest);
     }
-    /// The next word of the line, up to a blank or a comma; empty at its end, and
-    /// between a blank and a comma.
+    /// The next word of the line, up to a blank or a comma. The result is empty at the
+    /// end of the line, and if a comma follows a blank.
     std::string_view word() {
         const std::string_view to_blank = words.next();
         const std::string_view text = to_blank.substr(0, to_blank.find(','));

@@ -378,8 +378,8 @@ private:
 /// Vertices have positions (x, y, z) and may have normals (nx, ny, nz), texture
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
 /// with diffuse_ before each). Faces may have any number of corners, and a list
-/// texcoord with two texture coordinates for each. The list of an element tristrips
-/// has strips of triangles, each of which ends with -1. Colours are sRGB, as integers
+/// texcoord with two texture coordinates per corner. The list of an element tristrips
+/// has strips of triangles; each strip ends with -1. Colours are sRGB, as integers
 /// from 0 to the largest value of their type or as floats from 0 to 1. They become a
 /// picture on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.

@@ -17,10 +17,11 @@ namespace ljus {
 /// \defgroup goniometric Goniometric lamps
 /// \brief Beyond the report: lamps with measured intensities. Chapter: \ref ch_lamps.
 ///
-/// A goniophotometer turns a lamp about two axes and measures its intensity in each
-/// position \cite lm63. The two angles are coordinates on the sphere of directions. The
-/// type of the photometer determines the pole of these coordinates. `direction` and
-/// `reference` are members of GoniometricLightT:
+/// A goniophotometer turns a lamp about a vertical and a horizontal axis and measures
+/// its intensity in each position \cite lm63. The two angles are coordinates on the
+/// sphere of directions. The type of the photometer determines the pole of these
+/// coordinates. `direction` and `reference` are members of GoniometricLightT, and the
+/// side is their cross product:
 ///
 /// | type | pole                  | polar angle     | azimuth                        |
 /// |------|-----------------------|-----------------|--------------------------------|
@@ -28,8 +29,8 @@ namespace ljus {
 /// | B    | the side              | 90 - horizontal | vertical, from `direction`     |
 /// | A    | `reference`           | 90 - vertical   | horizontal, from `direction`   |
 ///
-/// The side is the cross product of `direction` and `reference`. Horizontal angles grow
-/// towards the side. For the types B and A vertical angles grow towards `reference`.
+/// Horizontal angles grow towards the side. For the types B and A vertical angles grow
+/// towards `reference`.
 /// \{
 
 /// The type of a goniophotometer; see \ref goniometric.

@@ -24,7 +24,7 @@ namespace ljus {
 ///
 /// | function                           | returns                                     |
 /// |------------------------------------|---------------------------------------------|
-/// | check(light)                       | nothing; throws, and names the wrong member |
+/// | check(light)                       | nothing; throws if a member has a bad value |
 /// | power(light)                       | the emitted flux, W                         |
 /// | sample_light(light, from, u, time) | a LightSampleT for a shadow ray             |
 ///

@@ -49,8 +49,8 @@ template <std::floating_point T, typename Facet>
 } // namespace detail
 
 /// Adds multiple scattering to the rough mirror `first`. The table `loss` is from
-/// bake_energy_loss() or from another material of the same roughness; the scene checks
-/// it.
+/// bake_energy_loss() or from another material of the same roughness. The scene refuses
+/// a table for another roughness.
 /// \throws std::invalid_argument  as check(first).
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F>
@@ -128,8 +128,8 @@ template <std::floating_point T, typename F>
 
 /// Samples the lobe of one reflection as GlossyT does, or the lobe of multiple
 /// scattering. u.z chooses the lobe.
-/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
-///         into the surface.
+/// \return The sample; nothing in the cases of \ref bsdf, and also if the direction
+///         points into the surface.
 /// \cost Up to twice that of sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -36,7 +36,7 @@ namespace detail {
 /// The fraction of light that a white surface loses in Fujii's second model, divided by
 /// A r \cite eon2025: \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the
 /// reflected fraction, mu the cosine of the angle to the normal, s its sine, and r the
-/// roughness. k_1 is fon_constant, and A is 1/(1 + k_1 r). The code computes G.
+/// roughness. k_1 is fon_constant, A is 1/(1 + k_1 r), and G is `g` in the code.
 /// \return At least 0, at most k_1.
 // [eon loss]
 template <std::floating_point T>

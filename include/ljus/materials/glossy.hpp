@@ -121,8 +121,8 @@ template <std::floating_point T, typename F>
 /// Samples a facet that is visible from `wo` \cite heitz2018, and returns the mirror
 /// direction about its normal. The weight is the reflectance of the facet times the
 /// fraction of light that no other facet blocks.
-/// \return The sample. Besides the cases of \ref bsdf, nothing if the direction points
-///         into the surface.
+/// \return The sample; nothing in the cases of \ref bsdf, and also if the direction
+///         points into the surface.
 /// \cost One sine, one cosine, nine square roots.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

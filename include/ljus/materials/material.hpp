@@ -160,8 +160,9 @@ concept Material = std::floating_point<typename M::Scalar> &&
 };
 
 /// \name A material around another one
-/// A wrapper scatters like its base. Besides check() it needs the functions that it
-/// adds to the base, and those optional functions of the table above that the base has.
+/// A wrapper scatters like its base. It needs check(), the functions that it adds to
+/// the base, and each optional function that its base has: all of these are in
+/// material_hooks().
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a
@@ -218,14 +219,16 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. The result of material_at() has a member `index`.
+/// 0 if m happens to be opaque. material_at(), which gives its material at a point,
+/// returns one with a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
 };
 
-/// A copy of `m` for a body that touches a body of index `outside` instead of air. The
-/// index of the copy is relative to `outside`.
+/// A copy of the material `m` for a body that is in contact with another body, whose
+/// index is the argument `outside`, and not with air. The index of the copy is relative
+/// to that of the other body.
 template <Refractive M>
 [[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
     m.index /= outside;
@@ -379,8 +382,9 @@ template <Material M>
 // clang-format on
 }
 
-/// Whether a material has every hook of its base, if it is a wrapper. It needs no
-/// only_specular, and no split() if it has an at_point(), which returns the base.
+/// Whether a wrapper has every optional function of its base; true for a material that
+/// is no wrapper. Two are not required: only_specular, and split() of a wrapper whose
+/// at_point() returns the base.
 template <typename M>
 inline constexpr bool keeps_hooks = true;
 template <MaterialWrapper M>

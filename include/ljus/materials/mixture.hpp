@@ -22,7 +22,7 @@ namespace ljus {
 /// | r = reflectivity            | an untinted mirror                             |
 /// | (1 - r) F                   | the boundary's reflection                      |
 /// | (1 - r)(1 - F) transparency | refraction, with absorption by Beer's law      |
-/// | the rest                    | the matt body below; 1 - F of its light leaves |
+/// | the rest                    | the matt body; it lets out 1 - F of its light  |
 ///
 /// Here F is the specularity times fresnel() for the angle between light and normal.
 ///

@@ -242,8 +242,8 @@ struct AllAlike {
 /// even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, 200 to 20 000 per light, but at most a
-///                quarter of the photons for less than 200 per light.
+///                the photons of that pass, but at least 200 per light, or a quarter
+///                of all if that is less. It sends at most 20 000 per light.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for

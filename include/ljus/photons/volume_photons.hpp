@@ -72,7 +72,7 @@ inline void check(const BeamEstimateSettings& settings) {
             static_cast<long long>(settings.nearest), "within [1, 511]");
 }
 
-/// Photons in fog, with a tree over the bounding boxes of their balls.
+/// Photons in fog. Each has a ball around it, and a tree holds the boxes of the balls.
 template <std::floating_point T>
 struct VolumeMapT {
     /// The type of the tree. A World uses the same type.

@@ -51,8 +51,8 @@ public:
         }
     }
 
-    /// The children of the wide node that a binary node becomes. A root without
-    /// children becomes its own only child.
+    /// The children of the wide node that a binary node becomes. If the whole binary
+    /// tree is one leaf, the wide root gets that leaf as its only child.
     [[nodiscard]] Children children(std::uint32_t from) const {
         Children result;
         const BvhNodeT<T>& node = tree_.nodes[from];
@@ -112,8 +112,8 @@ struct Bvh8Node {
     std::array<std::uint32_t, lane_count> child;
 };
 /// The encoding of a child in 32 bits. An inner node is encoded as its position in the
-/// array of nodes, in units of Lanes. A leaf is encoded as its first slot and its
-/// number of primitives.
+/// array of nodes, in units of 32 bytes, the size of Lanes. A leaf is encoded as its
+/// first slot and its number of primitives.
 struct Bvh8Child {
     static constexpr std::uint32_t leaf = 1u << 31; ///< The bit that marks a leaf.
     /// The number of primitives of a leaf, minus 1, is shifted left by this many bits.

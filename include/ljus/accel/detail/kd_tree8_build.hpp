@@ -107,8 +107,7 @@ public:
     using Item = KdTree8ItemT<T>;                 ///< The type of the elements.
     static constexpr std::size_t piece = 1 << 13; ///< Items per piece.
 
-    /// Pieces that were read, which other lists of the same thread use again. If the
-    /// pieces were freed, an allocator might not give their memory to other threads.
+    /// Pieces that were read, which other lists of the same thread use again.
     using Spare = std::vector<GrowingArray<Item>>;
 
     /// The number of items.

@@ -299,7 +299,7 @@ template <std::floating_point C>
 /// \report{Section 2.1}
 /// \return The first t where f changes its sign; nothing for a miss.
 /// \cost A ray that meets n blobs has at most 3 n - 1 spans. For each span, n quartics
-///       are added, and first_change() finds at most 7 roots.
+///       are added, and first_change() searches at most 7 intervals for a root.
 // [first meeting]
 template <typename Solver, std::floating_point C>
 requires(std::same_as<Solver, QuarticPieces> || std::same_as<Solver, Radicals>)

@@ -20,7 +20,7 @@ namespace ljus::detail {
 
 template <std::floating_point T>
 struct FlatShapesT {
-    /// Pairs of triangles, in the order of their second triangles.
+    /// Pairs of triangles, in the order in which the input completes them.
     std::vector<QuadT<T>> quads;
     /// The triangles without a partner, in the order of the input.
     std::vector<TriangleT<T>> triangles;
