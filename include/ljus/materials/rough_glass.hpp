@@ -120,8 +120,8 @@ template <std::floating_point T>
 
 /// The density of sample().
 /// \return Per steradian, on both sides of the surface. The integral is below 1,
-///         because sample() rejects a reflected direction that points into the surface
-///         and a refracted direction that points out of it.
+///         because sample() rejects reflected directions that leave the side of wo and
+///         refracted directions that stay on it.
 /// \cite walter2007 \cite heitz2018
 template <std::floating_point T>
 [[nodiscard]] T pdf(const RoughGlassT<T>& glass, const Vec3T<T>& wo, const Vec3T<T>& wi,
@@ -165,8 +165,8 @@ template <std::floating_point T>
 /// probability F, Fresnel's reflectance of the facet, and otherwise refraction. The
 /// weight is the fraction of light that no other facet blocks, at most 1. For refracted
 /// radiance it is multiplied by eta^2, with the eta of \ref rough_glass.
-/// \return The sample. Besides the cases of \ref bsdf, nothing if a reflected direction
-///         points into the surface, or a refracted direction points out of it.
+/// \return The sample; nothing in the cases of \ref bsdf, and also if a reflected
+///         direction leaves the side of wo or a refracted direction stays on it.
 /// \cost One sine, one cosine, ten square roots.
 // [sample rough glass]
 template <std::floating_point T>

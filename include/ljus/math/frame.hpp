@@ -22,8 +22,8 @@ struct FrameT {
 using Frame = FrameT<float>; ///< FrameT in float.
 
 /// Makes a right-handed frame around a unit vector n \cite duff2017, accurate even near
-/// -z. If n is from glm::normalize(), each length differs from 1 by at most 3 units
-/// of roundoff, and the dot product of any two vectors from 0 by at most 8 units.
+/// -z. If n is from glm::normalize(), each length is 1 to within 3 units of roundoff,
+/// and each dot product of two vectors is 0 to within 8 units.
 /// \cost One division, no square root, no branch.
 template <std::floating_point T>
 [[nodiscard]] FrameT<T> frame_around(const Vec3T<T>& n) noexcept {

@@ -152,8 +152,8 @@ constexpr void start_bounce(SobolStream& stream, std::uint64_t bounce) noexcept 
 }
 
 /// The next number, uniform in [0, 1), never 1; uses one dimension.
-/// \return A multiple of 2^-24 in float. In double it is a multiple of 2^-32 from the
-///         Sobol point, and of 2^-53 after that.
+/// \return A multiple of 2^-24 in float. In double, the numbers of the Sobol point are
+///         multiples of 2^-32, and those after its last dimension multiples of 2^-53.
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(SobolStream& stream) noexcept {
     const std::uint32_t d = stream.dimension;
