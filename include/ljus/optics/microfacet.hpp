@@ -71,8 +71,8 @@ template <std::floating_point T>
 ///
 /// A stretch by alpha along x and y turns the facets into a hemisphere. The mirror
 /// directions of the stretched `wo` fill a spherical cap uniformly \cite dupuy2023. The
-/// function samples a point of the cap, takes the half vector between the point and
-/// `wo`, and undoes the stretch.
+/// function samples a point of the cap, takes the half vector between it and the
+/// stretched `wo`, and undoes the stretch.
 /// \return Unit vector with z >= 0.
 /// \cost One sine, one cosine, three square roots.
 // [visible normals]

@@ -341,10 +341,10 @@ struct DirectLightSettings {
     /// Number of shadow rays per light, at least 1. DirectLight::analytic casts fewer
     /// rays to lamps that send little light.
     int rays = 1;
-    /// Multiple importance sampling needs a scattered ray. If this is Lobes::none, an
-    /// extra ray is traced. Otherwise the next ray of the path, sampled from these
-    /// lobes, serves as the scattered ray, and the caller must add its light by
-    /// met_light(). In fog, this must be Lobes::none.
+    /// The lobes from which the next ray of the path is sampled, if that ray is to
+    /// serve as the scattered ray of multiple importance sampling. The caller must then
+    /// add its light by met_light(). With Lobes::none an extra ray is traced. In fog,
+    /// only Lobes::none is allowed.
     Lobes next = Lobes::none;
 };
 

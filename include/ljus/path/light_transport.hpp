@@ -74,8 +74,8 @@ struct ExpressionLog {
 template <std::floating_point T>
 struct ClassesLog {
     std::vector<ExpressionLog<T>> logs{}; ///< One log for each class.
-    /// For each term whose value a batch finds later, one bit per class: whether the
-    /// term belongs to the class.
+    /// For each delayed term, see LogLike, one bit per class: whether the term belongs
+    /// to the class.
     std::vector<std::uint64_t> takers{};
     /// Where delay() writes the new size of `takers`.
     std::uint32_t* next_delayed = nullptr;
@@ -94,7 +94,7 @@ struct ClassesLog {
               const RgbT<T>& value) noexcept {
         for (auto& log : logs) log.term(owner, letters, value);
     }
-    /// Records the classes of a term whose value a batch finds later.
+    /// Records the classes of a delayed term.
     void delay(std::string_view letters) {
         std::uint64_t bits = 0;
         for (std::size_t k = 0; k < logs.size(); ++k)

@@ -357,13 +357,15 @@ template <AnyWorld W, std::floating_point T>
 }
 // [at_rest]
 
-/// Whether a scene has a material of a thin surface, and does not merely list its type.
+/// Whether any material in a scene is that of a thin surface. It is not enough that
+/// Materials<...> of the scene contains such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_thin_surfaces(const W& world) noexcept {
     return world.has_material([]<typename M>() { return ThinSurface<M>; });
 }
 
-/// Whether a scene has a shape that moves, and does not merely list its type.
+/// Whether any shape in a scene moves. It is not enough that Shapes<...> of the scene
+/// contains such a type.
 template <AnyWorld W>
 [[nodiscard]] bool has_moving(const W& world) noexcept {
     return any_array(world.shapes(), []<typename G>(const std::vector<G>& array) {
@@ -451,8 +453,8 @@ template <AnyWorld W, std::floating_point T>
 ///         between the points. A surface inside a body of higher priority does not
 ///         occlude.
 /// \cost One call of occluded(). If the scene has thin surfaces, or if a hidden surface
-///       lies between the points, one call of closest_hit() per surface between them,
-///       and one more.
+///       lies between the points, there are calls of closest_hit() as well: one more
+///       than there are surfaces between the points.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {

@@ -36,8 +36,8 @@ struct PathStateT {
     Vec3T<T> previous{T(0)}; ///< Position of the last vertex.
     /// Density of the ray's direction, per steradian; 0 after a specular lobe.
     T pdf = T(0);
-    /// The wavelength in nm. It is 0, for all wavelengths, until the path meets a
-    /// Dispersive material.
+    /// The wavelength in nm, from the first Dispersive material on. Before that it is
+    /// 0: the path carries all wavelengths.
     T wavelength = T(0);
     bool specular = false;     ///< Whether the last scattering was specular.
     bool met_diffuse = false;  ///< Whether any scattering was not specular.

@@ -71,7 +71,8 @@ constexpr bool cut_if(bool cut, Counts& counts) noexcept {
 /// A receiver of the events of a path: begin() at its start, vertex() at each
 /// scattering, and term() for each term of radiance. A log may have two more functions.
 /// `arrive(position)` is called for each surface that the path hits. `delay(letters)`
-/// is called instead of term() if a batch finds the value later.
+/// is called instead of term() for a delayed term: one whose value is estimated later,
+/// together with terms of other rays.
 template <typename L, typename T = float>
 concept LogLike = requires(L& log, const Vec3T<T>& v, T pdf) {
     log.begin();
@@ -92,7 +93,7 @@ struct NoLog {
                         const RgbT<T>&) const noexcept {}
 };
 
-/// The batch of a renderer that defers no estimates.
+/// The type of Context::batch for a renderer that has no delayed terms.
 struct NoBatch {};
 
 /// The context of one camera ray and of the path that begins with it.
@@ -101,7 +102,7 @@ struct Context {
     S& stream;      ///< Random numbers of the path.
     Counts& counts; ///< Counters of rays and photons.
     L& log;         ///< Receives each vertex and each term.
-    B& batch;       ///< Computes deferred estimates for many rays together.
+    B& batch;       ///< Estimates the delayed terms of many rays together.
 };
 /// Deduces the types from the values.
 template <StreamLike S, typename L, typename B>
@@ -128,8 +129,8 @@ struct RadianceSum {
     const RgbT<T>& throughput; ///< Throughput of the path so far.
     L& log;                    ///< Receives each term.
 
-    /// Adds radiance times the throughput, found by the estimator `owner`, such as
-    /// "shadow ray". The letters lead from the last vertex to the light.
+    /// Adds the radiance that the estimator `owner`, such as "shadow ray", has found,
+    /// times the throughput. The letters lead from the last vertex to the light.
     void operator()(const char* owner, const char* letters,
                     const RgbT<T>& light) const {
         add(owner, letters, throughput * light);

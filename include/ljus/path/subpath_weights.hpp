@@ -26,8 +26,8 @@ namespace ljus {
 /// |---------------|-----------------------------------------------------------------|
 /// | `at`          | the weights of a subpath at its last vertex                     |
 /// | `pdf`         | density of the next direction, per steradian                    |
-/// | `back`        | density of the last direction on the opposite way               |
-/// | `cosine`      | absolute cosine between a direction and the geometric normal    |
+/// | `back`        | density of the previous direction, sampled the opposite way     |
+/// | `cosine`      | absolute cosine of the next direction to the geometric normal   |
 /// | `probability` | probability of choosing the light                               |
 /// | `merging`     | \f$\eta\f$ of SubpathWeights; 0 without merging                 |
 ///
@@ -122,7 +122,8 @@ others_of_shadow_ray(const SubpathWeights& at, const LightEnd& end, double proba
 // [ends]
 
 /// The sum of the densities of all strategies whose joint lies on one subpath before
-/// its last vertex, relative to the density of merging there; `merging` is above 0.
+/// its last vertex, relative to the density of merging at the last vertex; `merging` is
+/// above 0.
 [[nodiscard]] inline double others_merged(const SubpathWeights& at, double back,
                                           double merging) noexcept {
     return (at.join + back * at.further) / merging;

@@ -194,7 +194,7 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 /// Samples a direction from a point of a near light to one of the targets: uniformly in
 /// a cone, or uniformly over the area of a flat object; see aim_at().
 /// \return Nothing if the bounding spheres of all targets have the radius 0, or if the
-///         chosen target is flat and is seen edge-on or contains `from`.
+///         chosen target is flat and `from` lies in its plane.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,

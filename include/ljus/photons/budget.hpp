@@ -169,7 +169,8 @@ struct PilotLightT {
 /// light. This addition limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, 500 to 20 000 per object.
+///                the photons of that pass, but at least 500 and at most 20 000 per
+///                object.
 /// \param radius  Radius of the picture's estimates, in scene units. The pilot searches
 ///                within twice this radius. If it is 0, the typical radius of 32
 ///                photons of the picture is used.
