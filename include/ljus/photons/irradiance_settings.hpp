@@ -21,7 +21,7 @@ struct IrradiancePointSettings {
     int every = 6;
     std::size_t nearest = 32; ///< Number of photons per estimate, 2 to 512.
     /// Largest radius of an estimate, in scene units. 0 stands for four times the
-    /// typical radius of `nearest` photons.
+    /// radius of a disc that typically contains `nearest` photons.
     float radius = 0;
     /// Number of shadow rays per light and lookup point, at least 1.
     int shadow_rays = 4;

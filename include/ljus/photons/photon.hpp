@@ -103,7 +103,8 @@ struct FluxAudit {
     RgbT<double> emitted{0};  ///< Flux that lights have emitted.
     RgbT<double> absorbed{0}; ///< Flux that materials and media have absorbed.
     RgbT<double> escaped{0};  ///< Flux that has left the scene.
-    /// Flux of paths that end at the depth limit or miss their target.
+    /// Flux of paths that end at the depth limit, and of photons that were aimed at an
+    /// object and do not hit it.
     RgbT<double> cut{0};
     /// Flux lost minus flux gained by Russian roulette and by the choice of a
     /// wavelength. Its mean is 0.

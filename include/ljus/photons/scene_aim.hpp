@@ -58,9 +58,9 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
 
 namespace detail {
 
-/// The fraction of an aimed light's photons that is sent into the cone. The other
-/// photons leave as from a light that is not aimed, because objects may lie outside the
-/// cone. Their flux is at most eight times that of the photons of such a light.
+/// The fraction of an aimed light's photons that is sent into the cone. The remaining
+/// eighth is sent in all directions, because objects may lie outside the cone. A photon
+/// has at most eight times the flux that it would have if no photon were aimed.
 inline constexpr double part_in_cone = 7.0 / 8;
 
 /// Emits a photon of a near light as emit_photon() does, but with the probability

@@ -198,9 +198,9 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 // [plain beam]
 
 /// The radiance that fog scatters along a ray to its origin, from the photons of a map.
-/// The estimate is too dark near the border of the fog and near surfaces, because a
-/// part of a ball lies outside the fog. Objects between a photon and the ray are
-/// ignored.
+/// The estimate is too dark near the border of the fog and near surfaces: a photon is
+/// spread over a ball, of which a part lies outside the fog there. Objects between a
+/// photon and the ray are ignored.
 /// \param world    The closed scene.
 /// \param map      The photons.
 /// \param ray      As for light_of_photon().

@@ -113,7 +113,7 @@ class LightMapView {
 public:
     using Stream = RandomStream; ///< Required of a renderer, but not used.
 
-    /// Makes the renderer. The world `of` must outlive it.
+    /// Makes the renderer. The world must outlive it.
     /// \throws std::invalid_argument  if the map was made for another world.
     LightMapView(WorldRef<W> of, LightMap map, const LightMapSettings& look = {})
         : world_(of), map_(std::move(map)), look_(look) {

@@ -35,7 +35,7 @@ enum class GridKind : std::uint8_t {
 struct PatchGrid {
     ObjectId object{}; ///< The object whose side is divided.
     detail::GridKind kind = detail::GridKind::quad; ///< How the shape is divided.
-    bool back = false;         ///< True for the side of the object that does not emit.
+    bool back = false;         ///< True for the side from which no light is emitted.
     bool inward = false;       ///< True for the side opposite to the shape's normal.
     std::uint32_t columns = 1; ///< Number of columns, at least 1.
     std::uint32_t rows = 1;    ///< Number of rows; equal to `columns` for a triangle.

@@ -156,7 +156,7 @@ template <std::floating_point T>
 
 /// The length of the smallest cells of a grid. It is skip.radius or, if this is 0,
 /// chosen from the photons: on average, a cell and its neighbours then contain as many
-/// photons of each light as the rule needs, but at least 20.
+/// photons of each light as `skip.rule` needs, but at least 20.
 /// \param box  The bounding box of the photons.
 /// \return In scene units; 0 if all photons lie at one point.
 template <std::floating_point T>
