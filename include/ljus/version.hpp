@@ -27,8 +27,8 @@
 #error "Ljus computes with GLM's plain vectors: compile without GLM_FORCE_INTRINSICS."
 #endif
 
-/// Marks a function, not a template, that ljus::core compiles. Without ljus::core the
-/// function is `inline`.
+/// Marks a function, not a template, that is compiled once, in the optional library
+/// ljus::core. In a program without that library the function is `inline`.
 #ifndef LJUS_CORE_INLINE
 #ifdef LJUS_CORE
 #define LJUS_CORE_INLINE

@@ -18,8 +18,8 @@ namespace ljus {
 inline constexpr std::size_t lone_others = 3;
 
 /// Finds the lone photons of a map: those with fewer than `lone_others` other photons
-/// within the radius. An estimate shows a lone photon as a visible disc. A wider disc is
-/// fainter and carries the same flux, except where it reaches beyond an edge. An
+/// within the radius. An estimate shows a lone photon as a visible disc. A wider disc
+/// is fainter and carries the same flux, except where it reaches beyond an edge. An
 /// estimate in which each photon has its own radius is called a variable kernel
 /// estimate \cite silverman1986.
 /// \param map     The photons.

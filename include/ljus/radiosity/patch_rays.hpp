@@ -51,8 +51,8 @@ template <AnyWorld W, std::floating_point T>
 
 /// Casts cosine-weighted rays from a patch \cite malley1988. The fraction of the rays
 /// that hit another patch is the form factor to that patch, including visibility. A ray
-/// that hits patch j adds A/rays to element j of `row`, the exchange areas of the
-/// casting patch, whose area is A.
+/// that hits patch j adds the area of the casting patch, divided by the number of rays,
+/// to element j of `row`.
 // [shoot_rays]
 template <AnyWorld W>
 void shoot_rays(const W& world, const Patches& all, std::uint32_t number, int rays,

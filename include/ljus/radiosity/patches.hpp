@@ -169,8 +169,8 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 
 /// Divides the quads, triangles and balls of a scene that have a Matt material into
 /// patches. A flat shape has patches on each side in front of which something lies. A
-/// ball has patches outside or, if the object is inside out, inside. All other objects
-/// occlude, but reflect no light; Patches::left_out counts them.
+/// ball has patches on its outer side, or on its inner side if it was added inside out.
+/// All other objects occlude, but reflect no light; Patches::left_out counts them.
 /// \throws std::invalid_argument  if the size is not above 0, if there are no patches
 ///         or too many, or if the scene has fog.
 /// \cost One test per pair of objects.

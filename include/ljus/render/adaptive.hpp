@@ -109,8 +109,8 @@ struct AdaptiveBlock {
     }
 };
 
-/// The blocks of a picture in the rows of blocks `first` to `last` - 1, row by row. A
-/// block is `size` pixels wide and high.
+/// A part of a picture, divided into blocks of `size` times `size` pixels: the blocks
+/// from row `first` of blocks up to, but not including, row `last`.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
@@ -444,9 +444,10 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 /// \throws std::invalid_argument  as render(), or if a setting is out of range, or if
 ///         there are fewer samples than first rays.
 /// \cost The time of the rays. The result takes 24 bytes per pixel in float. During
-///       rendering, about 200 bytes more are needed per pixel. With `disagreement`, no
-///       target and at least `first` + `more` samples, they are needed only for 4096
-///       pixels per thread, but at least for 16384 pixels.
+///       rendering, about 200 bytes more are needed per pixel. With `disagreement`,
+///       without a target and with at least `first` + `more` samples, the picture is
+///       rendered in strips of 4096 pixels per thread, at least 16384 pixels; only one
+///       strip needs these bytes at a time.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>

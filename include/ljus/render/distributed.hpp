@@ -84,8 +84,8 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context>
 /// mirror, glass or glossy surface, and one shadow ray goes to each light.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
-/// \param context  The random stream of this ray; counts rays, and logs terms, in
-///                 which a glossy surface is a D.
+/// \param context  The random stream of this ray; counts rays, and logs the path. In
+///                 the log a glossy surface has the letter D.
 /// \return Radiance, in W/(m^2 sr): an unbiased estimate of the light of the paths in
 ///         \ref distributed_rays, up to max_depth.
 /// \cost At most max_depth + 1 rays, and as many shadow rays to each light.

@@ -41,8 +41,8 @@ gather_lookup(const Mapper& mapper) noexcept {
 }
 
 /// The fraction of the disc of a caustics estimate that lies on the surface, if the
-/// caustics map holds the light of glossy surfaces. That light covers whole walls;
-/// undivided estimates would be too dark along each edge of a wall.
+/// caustics map holds the light of glossy surfaces. That light covers whole walls. The
+/// estimates are divided by this fraction, or walls would be too dark along each edge.
 /// \param mapper  A PhotonMapper with the ability Gathering.
 /// \param vertex  The centre of the disc, as detail::at_rest() returns it.
 /// \return In (0, 1]; 1 if the map holds no such light, or for an estimate with the k

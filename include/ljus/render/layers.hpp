@@ -260,10 +260,10 @@ void layer_values(const LayerSettings& which, const LayeredPixel& means, const W
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size, rays, seed, threads.
 /// \param which     The layers.
-/// \return The picture and each layer, the same for any number of threads. Layers of
-///         light that together contain each path once add up to the picture, up to the
-///         rounding of T. A sample that is not finite is left out of the picture and of
-///         all layers of light.
+/// \return The picture and each layer, the same for any number of threads. If every
+///         path belongs to exactly one layer of light, the sum of these layers is the
+///         picture, except for rounding. A sample that is not finite is left out of the
+///         picture and of all layers of light.
 /// \throws std::invalid_argument  as render(), and for more than 64 classes of paths
 ///         or one that light_path_expression() refuses.
 /// \cost The cost of the picture and a few bit operations per vertex and class of

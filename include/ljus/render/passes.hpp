@@ -116,7 +116,8 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The settings for skipping rays. Rules that need a pass that does not run are off.
+/// The settings for skipping rays, with those rules switched off whose photon pass is
+/// not run.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;

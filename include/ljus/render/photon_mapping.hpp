@@ -73,7 +73,7 @@ struct PhotonMapsT {
     PhotonMapT<T> general;  ///< Direct photons L D, indirect photons D ... D and shadow
                             ///< photons; empty if no general map is made.
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
-    VolumeMapT<T> fog; ///< Photons in fog whose paths have an earlier D; empty without
+    VolumeMapT<T> fog; ///< Photons L ... D ... D where the last D is fog; empty without
                        ///< fog.
     FluxAudit caustics_audit{}; ///< The flux of the caustics pass.
     FluxAudit general_audit{};  ///< The flux of the general pass.

@@ -75,15 +75,16 @@ struct PhotonMappingSettings {
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
     /// Whether pilot_lights() measures how the lights share caustics.photons, with at
-    /// most a quarter as many photons. Every CausticBudget but as_seen and equal does
-    /// this in any case. The setting is ignored without the ability Budgeting.
+    /// most a quarter as many photons. Each caustic_budget measures this anyway, except
+    /// CausticBudget::as_seen and CausticBudget::equal. The setting is ignored without
+    /// the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
     DensityEstimateSettings caustics_estimate{};
-    /// Radius of the disc of a lone caustic photon, as a multiple of the radius of
-    /// other discs, 1 to 1000; see lone_photons(). Estimates with the k nearest photons
-    /// ignore it.
+    /// The light of a caustic photon that lies far from all others is spread over a
+    /// disc of this many times the radius of the estimates, 1 to 1000; see
+    /// lone_photons(). Estimates with the k nearest photons ignore it.
     float lone_radius = 1;
     /// How the general map is queried. With radius 0 the mapper chooses a radius for
     /// which a disc typically holds 64 photons.
@@ -144,10 +145,10 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 /// The purposes for which there are ready settings.
 enum class Preset : std::uint8_t {
     draft, ///< For a first look: a picture with blotches, in a fraction of a second.
-    /// The least time without visible errors. More rays do not reduce the bias of this
-    /// preset. Indirect light is smoothed over 4 pixels, so that dark corners are too
-    /// bright, by 10 % or more within 8 pixels. Penumbras are slightly wrong. Caustics
-    /// and glossy reflections are blurred.
+    /// Few visible errors in little time. More rays do not reduce the bias of this
+    /// preset. Indirect light is smoothed over 4 pixels. Dark corners are therefore too
+    /// bright, by 10 % or more up to 8 pixels from the corner. Penumbras are slightly
+    /// wrong. Caustics and glossy reflections are blurred.
     fast,
     exact ///< Indirect rays at every bounce; only the caustics map is biased.
 };

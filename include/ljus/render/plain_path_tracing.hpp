@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/render/plain_path_tracing.hpp
-/// \brief A path tracer on one screen: the plain twin of path_tracing.hpp.
+/// \brief A path tracer in one page of code: the plain twin of path_tracing.hpp.
 
 #include "ljus/path/direct_light.hpp"
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/render/plain_photon_mapping.hpp
-/// \brief The report's second pass on one screen: the plain twin of photon_mapping.hpp.
+/// \brief The report's second pass in one page of code: the plain twin of
+/// photon_mapping.hpp.
 
 #include <utility>
 

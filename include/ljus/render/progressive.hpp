@@ -224,7 +224,8 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "camera, settings, seed and program.");
 }
 
-/// The settings for further passes, with the radii and shares that a mapper has chosen.
+/// The settings for further passes. They contain the radii that a mapper has chosen, and
+/// the shares of photons that each lamp and each mirror or glass object gets.
 /// \param first  The mapper of the first pass.
 /// \return The settings, the same in every run of the program.
 template <AnyWorld W, typename... X>
@@ -240,7 +241,7 @@ settings_for_passes(const PhotonMapper<W, X...>& first) {
 }
 
 /// The settings for further passes, from a mapper that is made for this purpose.
-/// \param world, settings, listed  As for a PhotonMapper.
+/// \param world, settings, listed  The arguments of PhotonMapper's constructor.
 /// \throws std::invalid_argument  if a setting is out of range.
 /// \cost The photon maps of one pass.
 template <AnyWorld W, typename... X>

@@ -37,8 +37,8 @@ struct RenderSettings {
 
 namespace detail {
 
-/// Refuses a scene with fog, unless the renderer, or the renderer whose paths it
-/// selects, has a member `carries_fog`.
+/// Refuses a scene with fog if the renderer has no member `carries_fog`. A renderer
+/// that selects paths of another one, whole(), is judged by that one.
 template <typename R>
 void require_fog_carried([[maybe_unused]] const R& renderer) {
     constexpr bool carries = requires {

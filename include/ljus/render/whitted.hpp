@@ -60,7 +60,7 @@ namespace detail {
 
 /// Adds the light that a diffuse surface reflects: that of each light, by one shadow
 /// ray, and the ambient light, without a shadow ray.
-/// \param add  Called as add(owner, letters, radiance).
+/// \param add  A RadianceSum, to which the light is added.
 // [local light]
 template <AnyWorld W, std::floating_point T, Material M, typename Add>
 void local_light(const WhittedTracer<W>& tracer, const VertexT<T>& vertex,

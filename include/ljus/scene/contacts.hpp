@@ -71,7 +71,8 @@ inline constexpr MaterialId no_body{0xffffffffu, 0};
 /// number of the object.
 using ContactKey = std::array<double, 16>;
 
-/// The position of an object without contacts, and the end of a list of contacts.
+/// Stands in place of an index for an object without contacts, and at the end of a list
+/// of contacts.
 inline constexpr std::uint32_t no_contact = 0xffffffffu;
 
 /// Two objects that share an area or a point.

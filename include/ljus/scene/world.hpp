@@ -779,7 +779,7 @@ template <typename S, typename Compute, std::floating_point T>
 
 /// If a hit lies in the box of a contact, calls f(object, hit, front) for the hit
 /// itself, then for the hit of each other surface in the same place. `here` is the
-/// object of the first hit. `front` tells whether the ray arrives from outside the
+/// object of the given hit. `front` tells whether the ray arrives from outside the
 /// object.
 /// \return Distance of the farthest other surface from the hit, along the normal, in
 ///         scene units; nothing if there are no other surfaces.
@@ -941,7 +941,7 @@ template <typename S, typename Compute, std::floating_point T>
 /// Samples a point of a light, for a shadow ray from the lit point `from`, which must
 /// be within the sphere around the scene if the light is a sun. `u` is a point of the
 /// unit square, and `time` in [0, 1].
-/// \return The sample; nothing if the light does not shine in this direction.
+/// \return The sample; nothing if the light does not shine towards `from`.
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<LightSampleT<T>>

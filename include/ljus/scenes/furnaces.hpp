@@ -37,7 +37,8 @@ CameraT<T> furnace_camera() {
 } // namespace detail
 
 /// A furnace inside the sphere of radius 1 around the origin, with the emission of its
-/// wall in W/(m^2 sr), and an albedo below 1. Its only lamp is the wall itself.
+/// wall in W/(m^2 sr). Its only lamp is the wall itself. With an albedo of 1 the
+/// radiance inside has no bound.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not
 ///         within [0, 1].
 template <std::floating_point T>
@@ -50,8 +51,9 @@ template <std::floating_point T>
 }
 
 /// A furnace inside the cube of side 2 around the origin, with the emission of its
-/// walls in W/(m^2 sr), and an albedo below 1. Near an edge the glowing walls are so
-/// close that only multiple importance sampling bounds the noise.
+/// walls in W/(m^2 sr). With an albedo of 1 the radiance inside has no bound. Near an
+/// edge the glowing walls are so close that only multiple importance sampling bounds
+/// the noise.
 /// \throws std::invalid_argument  if the emission is negative or the albedo is not
 ///         within [0, 1].
 template <std::floating_point T>

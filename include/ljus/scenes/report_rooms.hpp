@@ -18,8 +18,8 @@ namespace ljus {
 /// \defgroup report_room The report's room
 /// \brief A room of which the camera sees the floor, the ceiling and four walls.
 ///
-/// x points into the picture, y to the left and z up. As in the report, the two walls
-/// behind the camera are left out, with the floor and the ceiling between them.
+/// x points into the picture, y to the left and z up. As in the report, the part of the
+/// room behind the camera is left out: two walls, and the floor and ceiling there.
 /// \{
 
 /// The camera of all the report's pictures: at (-7, 0, 0), with a field of view of
