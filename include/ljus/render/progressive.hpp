@@ -224,8 +224,8 @@ void require_first_pass(const ProgressiveState& state, RenderPass&& pass) {
         "camera, settings, seed and program.");
 }
 
-/// The settings for further passes. They contain the radii that a mapper has chosen, and
-/// the shares of photons that each lamp and each mirror or glass object gets.
+/// The settings for further passes. They contain the radii that a mapper has chosen,
+/// and the shares of photons that each lamp and each mirror or glass object gets.
 /// \param first  The mapper of the first pass.
 /// \return The settings, the same in every run of the program.
 template <AnyWorld W, typename... X>

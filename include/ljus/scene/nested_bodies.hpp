@@ -29,7 +29,7 @@ namespace ljus {
 /// stick out of the water. Priorities are used if any material of the scene has a
 /// priority other than 0. Otherwise each surface is a boundary between its body and
 /// air. Among bodies of equal priority, the body of the higher index counts, and the
-/// survey says so.
+/// survey() says so.
 /// \{
 
 /// The boundary that a path crosses if it passes through a surface.
