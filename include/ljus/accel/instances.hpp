@@ -124,8 +124,8 @@ public:
     [[nodiscard]] Wide scale() const noexcept { return scale_; }
     /// The area in the scene, in squared scene units.
     [[nodiscard]] T area() const noexcept { return area_; }
-    /// The data of the instance. Saved maps contain a hash of it, so that a changed
-    /// scene is noticed.
+    /// The data of the instance. Saved photon maps and light maps contain a hash of it,
+    /// so that a changed scene is noticed.
     [[nodiscard]] Data data() const noexcept {
         return {mesh().data(), {place_[0], place_[1], place_[2], place_[3]}};
     }

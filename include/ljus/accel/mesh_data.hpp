@@ -77,8 +77,8 @@ void check(const MeshDataT<T>& data) {
 }
 
 /// Sets the normal of each vertex to the mean of the normals of its triangles, weighted
-/// by the triangles' angles at the vertex. This mean does not depend on how flat
-/// regions are divided into triangles \cite thurmer1998. Vertices with different
+/// by the triangles' angles at the vertex. If a flat face is divided into other
+/// triangles, this mean stays the same \cite thurmer1998. Vertices with different
 /// indices stay separate, even at the same position, so that edges between them stay
 /// sharp. A vertex that belongs to no triangle with an area gets (0, 0, 0), which
 /// counts as no normal.

@@ -168,7 +168,7 @@ requires requires(const S& shape) {
     return corners_of(moving.shape);
 }
 
-/// The area_sums() of the shape.
+/// The sums of areas that a lamp keeps for sample_area(), see area_sums() of the shape.
 template <typename S>
 requires requires(const S& shape) {
     area_sums(shape);

@@ -122,7 +122,8 @@ template <typename Compute = void, std::floating_point T>
 /// If the sphere is far away, \f$ u^2/4 \f$ and \f$ v \f$ are large and nearly equal,
 /// and rounding destroys their difference.
 /// \tparam Compute  The precision of the arithmetic; t is rounded to T once.
-/// \return As intersect() where the formula holds; otherwise undefined.
+/// \return As intersect(), except for rounding. A direction of another length gives a
+///         wrong result.
 /// \cost One square root, no division.
 /// \report{Section 3.1.4}
 // [as_printed]

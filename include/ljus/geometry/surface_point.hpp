@@ -53,9 +53,10 @@ inline void set_point(SurfacePointT<T>& to, const SurfacePointT<T>& from) noexce
 /// The sign of \f$ T \cdot (E_1 \times E_2) \f$ tells on which side of the plane a
 /// point lies. E_1 and E_2 are the edges, and T is the vector from a corner to the
 /// point. This sum of products has 9 roundings. No term exceeds
-/// \f$ |T|\,|E_1|\,|E_2| \f$, where |X| is \f$ |X_x| + |X_y| + |X_z| \f$. Division by
-/// the length of the cross product gives a height above the plane, with the error
-/// \f[ \gamma_9 |T| \, \frac{|E_1|\,|E_2|}{|E_1 \times E_2|} , \f]
+/// \f$ \|T\|\,\|E_1\|\,\|E_2\| \f$, where \f$ \|X\| = |X_x| + |X_y| + |X_z| \f$.
+/// Division by the Euclidean length of the cross product gives a height above the
+/// plane, with the error
+/// \f[ \gamma_9 \|T\| \, \frac{\|E_1\|\,\|E_2\|}{|E_1 \times E_2|} , \f]
 /// where \f$ \gamma_9 \f$ is rounding_bound(9). The fraction is the tilt: 1 to 3 for a
 /// square, and larger for edges that are nearly parallel. For float the function does
 /// nothing, because the test computes in double.
@@ -166,7 +167,8 @@ namespace detail {
 /// The numerators of u and v are sums of products with at most 8 roundings. No term
 /// exceeds \f$ |D|\,|E|\,|T| \f$ for the ray's direction D, an edge E and the vector T
 /// from the corner to the ray's origin, where |X| is \f$ |X_x| + |X_y| + |X_z| \f$.
-/// \return The bound, dimensionless; 0 if it would exceed `most`.
+/// \return The bound, dimensionless; 0 if the bound would be larger than the argument
+///         `most`.
 // [border]
 template <std::floating_point C>
 [[nodiscard]] C border_of_rounding(const Vec3T<C>& d, const Vec3T<C>& to,

@@ -28,7 +28,7 @@ namespace ljus {
 /// Water may therefore extend a little into its glass, and a bubble, of index 1, may
 /// stick out of the water. Priorities are used if any material of the scene has a
 /// priority other than 0. Otherwise each surface is a boundary between its body and
-/// air. Among bodies of equal priority, the body of the higher index counts, and the
+/// air. Among bodies of equal priority, the body of the higher index counts, and
 /// survey() says so.
 /// \{
 

@@ -108,7 +108,8 @@ public:
         if (size_ == room_) take(room_ < 16 ? 16 : 2 * room_);
         return data()[size_++];
     }
-    /// Adds a copy of an element that is not in this array.
+    /// Adds a copy of an element. The argument must not refer to an element of this
+    /// array.
     void push_back(const Element& element) { add() = element; }
     /// Removes all elements, and keeps their memory.
     void clear() noexcept { size_ = 0; }
@@ -149,8 +150,8 @@ private:
     std::size_t room_ = 0;
 };
 
-/// A constant array, in memory or in a mapped file. The destructor unmaps the file. A
-/// copy of the array is always in memory.
+/// A constant array, in memory or in a mapped file. The destructor unmaps the file. To
+/// copy the array means to copy its elements into memory.
 template <typename Element>
 class StoredArray {
 public:

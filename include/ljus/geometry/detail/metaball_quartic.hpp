@@ -52,8 +52,8 @@ namespace detail {
 template <std::floating_point T>
 inline constexpr T steepest_blob = T(8) / (T(3) * std::numbers::sqrt3_v<T>);
 
-/// The field of a blob of radius R along a ray. The field is \f$ w s^2 \f$ where
-/// \f$ s(t) = h - k (t - m)^2 \f$ is positive, and 0 elsewhere.
+/// The field of a blob of radius R along a ray is \f$ w\,\max(0, s(t))^2 \f$ with
+/// \f$ s(t) = h - k (t - m)^2 \f$.
 template <std::floating_point C>
 struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
