@@ -28,7 +28,7 @@ namespace ljus {
 /// \{
 
 /// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
-/// other scenes use the square of 0.1 times the mean radiance.
+/// other scenes use the square of a tenth of the mean radiance.
 inline constexpr double default_epsilon = 0.01;
 
 namespace detail {
@@ -167,13 +167,13 @@ struct BiasVariance {
     double variance = 0.0;     ///< The variance of a single run, which is its noise.
 };
 
-/// Splits the mean square error of a method by at least 2 runs with independent seeds.
-/// For each pixel and channel, x is the value of a run, r that of the reference, and m
-/// the mean of the M runs. Then variance = sum (x - m)^2 / (M - 1), and bias^2 =
-/// (m - r)^2 - variance / M, where the last term is the noise that m still has. The
-/// sum of bias^2 and variance is the expected mean square error of a run. Noise that
-/// neighbouring pixels share, as with photon maps, does not count as bias. Noise of the
-/// reference does.
+/// Splits the mean square error of a method into its bias and its variance. This takes
+/// at least 2 runs with independent seeds. For each pixel and channel, x is the value
+/// of a run, r that of the reference, and m the mean of the N runs. Then variance =
+/// sum (x - m)^2 / (N - 1), and bias^2 = (m - r)^2 - variance / N, where the last term
+/// is the noise that the mean m still has. The sum of bias^2 and variance is the
+/// expected mean square error of a run. Noise that neighbouring pixels share, as with
+/// photon maps, does not count as bias. Noise of the reference does.
 ///
 /// *Trap*: the estimate of bias^2 for a method without bias may be negative by chance.
 /// The estimate is not clamped to 0, because clamping would bias it.

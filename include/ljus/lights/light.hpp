@@ -44,7 +44,8 @@ namespace ljus {
 /// |-------------------------------------|--------------------------------------------|
 /// | sample_arrival(light, u)            | a direction of travel, and the irradiance  |
 ///
-/// Each row has an optional function, its purpose, and what happens without it:
+/// Lights may have more functions. The following list gives the name of each, its
+/// purpose, and what happens without it:
 ///
 /// \snippet{lineno} ljus/lights/light.hpp light hooks
 /// \{

@@ -34,9 +34,10 @@ using Eon = EonT<float>; ///< EonT in float.
 namespace detail {
 
 /// The fraction of light that a white surface loses in Fujii's second model, divided by
-/// A r \cite eon2025: \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$. Here E is the
-/// reflected fraction, mu the cosine of the angle to the normal, s its sine, and r the
-/// roughness. k_1 is fon_constant, A is 1/(1 + k_1 r), and G is `g` in the code.
+/// A r, where r is the roughness, A is 1/(1 + k_1 r), and k_1 is fon_constant
+/// \cite eon2025. With the reflected fraction E, the result is
+/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
+/// \param s, mu  Sine and cosine of the angle between the direction and the normal.
 /// \return At least 0, at most k_1.
 // [eon loss]
 template <std::floating_point T>

@@ -161,8 +161,7 @@ concept Material = std::floating_point<typename M::Scalar> &&
 
 /// \name A material around another one
 /// A wrapper scatters like its base. It needs check(), the functions that it adds to
-/// the base, and each optional function that its base has: all of these are in
-/// material_hooks().
+/// the base, and each function of material_hooks() that its base has.
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a
@@ -219,16 +218,15 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. material_at(), which gives its material at a point,
-/// returns one with a member `index`.
+/// 0 if m happens to be opaque. What material_at() returns for it has a member `index`.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;
 };
 
-/// A copy of the material `m` for a body that is in contact with another body, whose
-/// index is the argument `outside`, and not with air. The index of the copy is relative
-/// to that of the other body.
+/// A copy of the material `m` for a surface that has another body in front of it in
+/// place of air. `outside` is the index of the other body. The index of the copy is
+/// relative to it.
 template <Refractive M>
 [[nodiscard]] constexpr M relative_to(M m, typename M::Scalar outside) noexcept {
     m.index /= outside;
