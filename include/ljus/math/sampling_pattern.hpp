@@ -131,10 +131,11 @@ struct Pattern {
 
 namespace detail {
 
-/// Finds the strip along x that contains point number i of a multi-jittered pattern
-/// whose last row is incomplete. There are as many strips as points. A column with a
-/// point in the last row has one strip more than the other columns. These wider columns
-/// are spread evenly over the pixel from a random start. Finally all strips are shifted
+/// Finds the x of point number i of a multi-jittered pattern whose last row is
+/// incomplete. The pixel is divided from left to right into as many narrow strips as
+/// there are points. A column of the pattern covers one strip for each of its points;
+/// columns with a point in the last row are therefore wider. The wider columns are
+/// spread evenly over the pixel from a random start. Finally all strips are shifted
 /// cyclically by the same random number, so that each strip is equally likely.
 /// \return The strip, in [0, points), different for each i.
 [[nodiscard]] constexpr std::uint32_t

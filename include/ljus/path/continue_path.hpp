@@ -114,8 +114,8 @@ void follow(PathStateT<T>& path, const VertexT<T>& vertex, const M& material,
 
 } // namespace detail
 
-/// Continues a path in a direction that the material samples. Three numbers are drawn
-/// if the material has the lobes `which`.
+/// Continues a path in a direction that the material samples from the lobes in `which`.
+/// Three numbers are drawn, unless the material has none of these lobes.
 /// \return False if the path ends here. The path is then unchanged.
 /// \report{Section 3.2.4}
 template <std::floating_point T, Material M, StreamLike Stream>

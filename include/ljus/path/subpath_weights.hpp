@@ -73,8 +73,7 @@ struct LightEnd {
 // [start]
 
 /// The weights, for arrived(), after a subpath has scattered at its last vertex.
-/// `cosine` belongs to the next direction. At a mirror or glass it belongs to the last
-/// direction instead, and cancels the division in arrived().
+/// `cosine` belongs to the next direction, but at a mirror or glass to the previous one.
 // [recursion]
 [[nodiscard]] inline SubpathWeights scattered(const SubpathWeights& at, double pdf,
                                               double back, double cosine,
@@ -84,7 +83,8 @@ struct LightEnd {
 }
 
 /// The weights at the next vertex of a subpath, from the result of started() or
-/// scattered() and the squared distance between the two vertices.
+/// scattered() and the squared distance between the two vertices. `cosine` belongs to
+/// the direction between them, at the next vertex.
 [[nodiscard]] inline SubpathWeights arrived(const SubpathWeights& from, double cosine,
                                             double distance2) noexcept {
     return {from.join * distance2 / cosine, from.further / cosine};

@@ -169,8 +169,8 @@ struct PilotLightT {
 /// light. This addition limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, but at least 500 and at most 20 000 per
-///                object.
+///                the photons of that pass, the same number to each object: at least
+///                500 and at most 20 000.
 /// \param radius  Radius of the picture's estimates, in scene units. The pilot searches
 ///                within twice this radius. If it is 0, the typical radius of 32
 ///                photons of the picture is used.
@@ -243,8 +243,9 @@ struct AllAlike {
 /// even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, but at least 200 per light, or a quarter
-///                of all if that is less. It sends at most 20 000 per light.
+///                the photons of that pass. If a light would get less than 200 of
+///                them, it sends more, up to a quarter of the photons of that pass. It
+///                never sends more than 20 000 per light.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for
