@@ -172,8 +172,8 @@ template <std::floating_point T>
 /// A ring of directions near the pole is shorter than a ring near the horizon, but gets
 /// as many samples. The samples therefore crowd around the pole. An estimate must
 /// divide by their density.
-/// \erratum{The report does not mention the density. Without the division the light
-///          near the pole counts too much.}
+/// \erratum{The report does not mention the density. Without the division, the mean is
+///          right for cosine-weighted directions only.}
 /// \{
 
 /// Samples a direction above the horizon whose inclination and azimuth are uniform.

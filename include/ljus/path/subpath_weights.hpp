@@ -73,7 +73,7 @@ struct LightEnd {
 // [start]
 
 /// The weights, for arrived(), after a subpath has scattered at its last vertex.
-/// `cosine` belongs to the next direction, but at a mirror or glass to the previous one.
+/// `cosine` belongs to the next direction; at a mirror or glass, to the previous one.
 // [recursion]
 [[nodiscard]] inline SubpathWeights scattered(const SubpathWeights& at, double pdf,
                                               double back, double cosine,

@@ -41,8 +41,8 @@ struct DensityEstimateOf {
     std::size_t nearest = 0;
     K kernel = detail::default_kernel<K>; ///< Weight of a photon by its distance.
     /// Half the height of the disc, divided by its radius. A small value excludes
-    /// photons of parallel walls. With 0.5 the disc is high enough for the surface of
-    /// any ball whose radius is at least that of the disc.
+    /// photons of parallel walls, but also of curved surfaces. With 0.5 the disc
+    /// contains the surface of a ball, unless the ball is smaller than the disc.
     float thickness = 0.5f;
 };
 /// DensityEstimateOf with a kernel of the library.

@@ -90,8 +90,8 @@ template <std::floating_point T>
     };
 }
 
-/// Replaces unknown verdicts by those of a coarser grid. `times` is the length of its
-/// cells over that of the fine grid's.
+/// Replaces unknown verdicts by those of a coarser grid, whose cells are longer by the
+/// factor `times`.
 template <std::floating_point T>
 void fill_from(VerdictBitsT<T>& fine, const VerdictBitsT<T>& coarse, int times) {
     for (std::size_t b = 0; b < fine.table.size(); ++b) {
