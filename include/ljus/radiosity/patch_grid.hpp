@@ -138,7 +138,7 @@ concept Cuttable = requires(const S& shape) {
 template <std::floating_point T>
 struct HitSideT {
     Vec3T<T> outer{T(0)}; ///< The shape's own normal at the hit.
-    bool back = false;    ///< True for the side that does not emit.
+    bool back = false;    ///< As PatchGrid::back.
 };
 
 template <AnyWorld W, std::floating_point T>

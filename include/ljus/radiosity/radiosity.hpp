@@ -66,8 +66,9 @@ template <AnyWorld W>
 }
 
 /// The light map of a solution, from the radiosity of each patch in W/m^2. The
-/// irradiance includes the light that the patches have not yet shot. In LightMap::key,
-/// only the hash of the scene is set; see light_map_key().
+/// irradiance is computed from the whole radiosity, also where a solver has not yet
+/// passed on all of it. In LightMap::key, only the hash of the scene is set; see
+/// light_map_key().
 template <AnyWorld W>
 [[nodiscard]] LightMap make_light_map(const W& world, const Patches& patches,
                                       const FormFactors& factors,

@@ -50,7 +50,8 @@ struct AdaptiveSettings {
     /// rays of the eight blocks around it. Where that deviation is at least this
     /// number, the batch has `more` rays.
     double disagreement = 0;
-    /// Added to a squared mean before a variance is divided by it, as in rel_mse().
+    /// The relative variance is the variance divided by the sum of the squared mean and
+    /// this number, as in rel_mse().
     double epsilon = 0.01;
     /// Whether the first rays only decide how many rays follow and are then discarded,
     /// which removes the bias. Not allowed with `disagreement`, which has no bias.
@@ -109,8 +110,9 @@ struct AdaptiveBlock {
     }
 };
 
-/// A part of a picture, divided into blocks of `size` times `size` pixels: the blocks
-/// from row `first` of blocks up to, but not including, row `last`.
+/// Lists the blocks of some rows, row by row. A picture is divided into blocks of
+/// `size` times `size` pixels. `first` is the number of the first row of blocks, and
+/// `last` is the number after that of the last row.
 [[nodiscard]] inline std::vector<AdaptiveBlock>
 adaptive_blocks(const RenderSettings& picture, int size, int first, int last) {
     std::vector<AdaptiveBlock> blocks;
@@ -446,8 +448,8 @@ void set_pixels(AdaptiveT<T>& result, std::span<const AdaptiveBlock> blocks,
 /// \cost The time of the rays. The result takes 24 bytes per pixel in float. During
 ///       rendering, about 200 bytes more are needed per pixel. With `disagreement`,
 ///       without a target and with at least `first` + `more` samples, the picture is
-///       rendered in strips of 4096 pixels per thread, at least 16384 pixels; only one
-///       strip needs these bytes at a time.
+///       rendered in strips, and only one strip at a time needs these bytes. A strip
+///       has 16384 pixels, or 4096 per thread if there are more than four threads.
 /// \report{Sections 4.3 and 5}
 template <typename R, CameraLike C>
 requires Renderer<R, typename C::Scalar>

@@ -116,8 +116,8 @@ choose_passes(const SceneNeeds& found, const PhotonMappingSettings& settings) {
 
 namespace detail {
 
-/// The settings for skipping rays, with those rules switched off whose photon pass is
-/// not run.
+/// The settings for skipping rays. Skipping is switched off where the photons that
+/// would justify it are not traced.
 [[nodiscard]] inline SkipSettings skipping(const Passes& run,
                                            const PhotonMappingSettings& settings) {
     SkipSettings skip = settings.skip;

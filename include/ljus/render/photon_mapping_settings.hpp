@@ -74,10 +74,10 @@ struct PhotonMappingSettings {
     PhotonPassSettings general{};  ///< Photons for all other light.
     CausticBudget caustic_budget =
         CausticBudget::as_seen; ///< How mirrors and glass share caustics.photons.
-    /// Whether pilot_lights() measures how the lights share caustics.photons, with at
-    /// most a quarter as many photons. Each caustic_budget measures this anyway, except
-    /// CausticBudget::as_seen and CausticBudget::equal. The setting is ignored without
-    /// the ability Budgeting.
+    /// Whether the mapper calls pilot_lights() to measure how the lights share
+    /// caustics.photons. The pilot costs at most a quarter of that number of photons.
+    /// Each caustic_budget measures this anyway, except CausticBudget::as_seen and
+    /// CausticBudget::equal. The setting is ignored without the ability Budgeting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.
@@ -146,8 +146,8 @@ lone_estimate(const PhotonMappingSettings& settings) noexcept {
 enum class Preset : std::uint8_t {
     draft, ///< For a first look: a picture with blotches, in a fraction of a second.
     /// Few visible errors in little time. More rays do not reduce the bias of this
-    /// preset. Indirect light is smoothed over 4 pixels. Dark corners are therefore too
-    /// bright, by 10 % or more up to 8 pixels from the corner. Penumbras are slightly
+    /// preset. Indirect light is smoothed over 4 pixels. The last 8 pixels before a
+    /// dark corner are therefore too bright, by 10 % or more. Penumbras are slightly
     /// wrong. Caustics and glossy reflections are blurred.
     fast,
     exact ///< Indirect rays at every bounce; only the caustics map is biased.

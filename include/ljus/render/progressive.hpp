@@ -123,9 +123,10 @@ struct ProgressiveState {
 /// The passes are independent: each has its own random streams, and the radii are fixed
 /// in advance. The sum of the squared deviations of n independent values from their
 /// mean, divided by n(n - 1), therefore estimates the variance of the mean. The
-/// expected values of the passes change with the radius, which makes the estimate too
-/// large, by 1/(3n) of the squared bias for alpha = 2/3. The estimate **does not
-/// contain the bias itself**, because all passes are blurred alike.
+/// estimate is a little too large, because the expected values of the passes change
+/// with the radius: for alpha = 2/3, the excess is the squared bias of the mean divided
+/// by 3n. The estimate **does not contain the bias itself**, because all passes are
+/// blurred alike.
 struct ProgressiveError {
     double pixels = 0; ///< Standard error of a pixel: root mean square over all pixels.
     double blocks = 0; ///< Standard error of a block's mean, which includes the

@@ -37,8 +37,8 @@ struct RenderSettings {
 
 namespace detail {
 
-/// Refuses a scene with fog if the renderer has no member `carries_fog`. A renderer
-/// that selects paths of another one, whole(), is judged by that one.
+/// Refuses a scene with fog if the renderer has no member `carries_fog`. OnlyPaths,
+/// which selects some of a renderer's paths, is judged by that renderer.
 template <typename R>
 void require_fog_carried([[maybe_unused]] const R& renderer) {
     constexpr bool carries = requires {

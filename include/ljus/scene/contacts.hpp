@@ -428,7 +428,8 @@ list_pieces(const ContactSearch& search, const std::vector<std::uint32_t>& looks
 }
 
 /// The area that each material covers, in units of 2^-30 of the largest area of an
-/// object. A sum of whole numbers does not depend on the order.
+/// object. Each area is rounded to a whole number of units, so that the order of the
+/// sum does not matter.
 [[nodiscard, gnu::cold]] inline std::vector<double>
 covered_areas(std::span<const ContactObject> objects, std::size_t materials) {
     std::vector<double> covered(materials);

@@ -89,7 +89,7 @@ template <std::floating_point T>
 namespace detail {
 
 /// The largest number of shapes that are tested in a loop. More shapes are put in a
-/// tree. In parts of the report's room with 3 objects or more, the tree is no slower
+/// tree. Measured with 3 and more objects of the report's room, the tree is no slower
 /// than the loop (benchmarks/rays_room.cpp; \ref ch_bvh).
 inline constexpr std::size_t flat_loop_limit = 2;
 
@@ -938,9 +938,9 @@ template <typename S, typename Compute, std::floating_point T>
     });
 }
 
-/// Samples a point of a light, for a shadow ray from the lit point `from`, which must
-/// be within the sphere around the scene if the light is a sun. `u` is a point of the
-/// unit square, and `time` in [0, 1].
+/// Samples a point of a light, for a shadow ray that begins at the lit point `from`. If
+/// the light is a sun, that point must be within the sphere around the scene. `u` is a
+/// point of the unit square, and `time` is in [0, 1].
 /// \return The sample; nothing if the light does not shine towards `from`.
 /// \report{Section 3.2.3}
 template <AnyWorld W, std::floating_point T>
