@@ -59,7 +59,8 @@ struct StrandT {
     C enter = C(0);  ///< The t at which s becomes positive.
     C leave = C(0);  ///< The t at which s becomes negative again.
     C middle = C(0); ///< m, the t at which the ray is nearest to the centre.
-    C height = C(0); ///< h = 1 - p^2/R^2, for the distance p to the centre at m.
+    C height = C(0); ///< h = 1 - p^2/R^2, for a distance p from the centre to the
+                     ///< ray.
     C bend = C(0);   ///< k = D.D / R^2, for the ray's direction D.
     C weight = C(1); ///< w, the weight of the blob.
 };
