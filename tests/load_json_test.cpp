@@ -433,18 +433,6 @@ TEST_CASE("load_json: groups of lamps are dimmed together") {
             "lamp_groups.top is -1; it must be within [0, 1e9].");
 }
 
-TEST_CASE("load_json: the names of C++ are read as well, but not both") {
-    const auto scene = read(changed("{\"type\": \"dielectric\", \"ior\": 1.5}",
-                                    "{\"type\": \"glass\", \"index\": 1.25}"))
-                           .scene;
-    CHECK(std::get<std::vector<Nested<Glass>>>(scene.materials).at(0).base.index ==
-          1.25f);
-    const auto camera = read(changed("\"look_at\"", "\"target\"")).camera;
-    CHECK(camera.pinhole.forward == Vec3{0, 0, -1});
-    refused("\"ior\": 1.5", "\"ior\": 1.5, \"index\": 1.5",
-            "materials.glass.index is given as ior as well.");
-}
-
 TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
     refused({
         {"\"type\": \"lambertian\"", "\"type\": \"lambert\"",

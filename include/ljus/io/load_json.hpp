@@ -53,11 +53,11 @@ inline constexpr JsonMember camera_members[]{
     needed("position", point_value, "the pinhole, or the middle of the lens",
            "[0, 1, 4]"),
     needed("look_at", point_value, "the point at the middle of the picture",
-           "[0, 1, 0]", "target"),
+           "[0, 1, 0]"),
     needed("up", point_value, "a direction, not along the view", "[0, 1, 0]"),
     needed("vfov_deg",
            {JsonKind::number, 1e-3, 179.99, "within [0.001, 179.99] degrees"},
-           "full vertical angle of view, degrees", "40", "vfov_degrees"),
+           "full vertical angle of view, degrees", "40"),
     optional("lens", {.kind = JsonKind::object, .of = "lens"},
              "blurs what is out of focus")};
 inline constexpr JsonMember lens_members[]{

@@ -46,13 +46,11 @@ struct NoMeshesT {
     }
 };
 
-inline constexpr std::string_view object_words[]{
-    "sphere", "triangles", "mesh", "instances", "quad", "box", "disc", "cylinder"};
 inline constexpr std::string_view normals_words[]{"file", "smooth", "flat"};
 inline constexpr std::string_view ends_words[]{"open", "closed"};
 
 inline constexpr JsonMember object_shared[]{
-    needed("type", {.kind = JsonKind::word, .words = object_words}, "which shape", {}),
+    type_row,
     optional("name", remark_value, "for people"),
     preset("emission", light_value, 0,
            "radiance on the side of the normal, W/(m^2 sr): it is a lamp"),
@@ -127,20 +125,16 @@ inline constexpr JsonMember cylinder_members[]{
            "a tube, or closed by two discs")};
 
 inline constexpr JsonTable object_tables[]{
-    {"sphere", {}, "a ball", sphere_members},
-    {"triangles",
-     {},
-     "triangles; two that form a parallelogram become a quad",
+    {"sphere", "a ball", sphere_members},
+    {"triangles", "triangles; two that form a parallelogram become a quad",
      triangles_members},
-    {"mesh", {}, "the triangles of a file: ljus::MeshFiles", mesh_members},
-    {"instances",
-     {},
-     "the meshes of a file, kept once, in many places: ljus::Instance",
+    {"mesh", "the triangles of a file: ljus::MeshFiles", mesh_members},
+    {"instances", "the meshes of a file, kept once, in many places: ljus::Instance",
      instances_members},
-    {"quad", {}, "a parallelogram", quad_members},
-    {"box", {}, "six quads that face outwards", box_members},
-    {"disc", {}, "a disc", disc_members},
-    {"cylinder", {}, "a tube", cylinder_members}};
+    {"quad", "a parallelogram", quad_members},
+    {"box", "six quads that face outwards", box_members},
+    {"disc", "a disc", disc_members},
+    {"cylinder", "a tube", cylinder_members}};
 
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
