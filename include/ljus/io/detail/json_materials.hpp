@@ -333,7 +333,7 @@ constexpr auto material_rows() {
             [](In in) {
                 return PictureLampT<T>{.picture =
                                            take_picture(in.in, in.shared.pictures),
-                                       .albedo = in.color("albedo")};
+                                       .base{in.color("albedo")}};
             })};
 }
 
