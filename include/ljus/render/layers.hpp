@@ -131,14 +131,6 @@ template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(MiddleStream&) noexcept {
     return T(0.5);
 }
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec2T<T> next_2d(MiddleStream&) noexcept {
-    return Vec2T<T>{T(0.5)};
-}
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec3T<T> next_3d(MiddleStream&) noexcept {
-    return Vec3T<T>{T(0.5)};
-}
 constexpr void start_bounce(MiddleStream&, std::uint64_t) noexcept {}
 
 /// The sums over the rays of one pixel.
