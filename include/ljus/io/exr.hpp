@@ -21,9 +21,9 @@
 
 #include <glm/packing.hpp>
 
+#include "ljus/image/color.hpp"
 #include "ljus/image/layer.hpp"
 #include "ljus/io/detail/picture_size.hpp"
-#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
