@@ -31,12 +31,9 @@ bool by_schema(const json& scene) {
     return ljus_test::valid(scene, schema, schema);
 }
 
-/// Reads no mesh, with or without materials.
+/// Reads no mesh.
 struct NothingRead {
-    std::vector<Mesh> operator()(const std::string&, double, const std::string&) const {
-        return {};
-    }
-    LoadedMesh with_materials(const std::string&, double, const std::string&) const {
+    LoadedMesh operator()(const std::string&, const MeshFileSettings&) const {
         return {};
     }
 };

@@ -178,8 +178,9 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// files are looked for in its folder.
 ///
 /// `load_meshes` reads mesh files, for example MeshFiles. It is called as
-/// load_meshes(path, scale, normals), once for each combination of these, and returns a
-/// vector of meshes. WithExr also reads EXR pictures.
+/// load_meshes(path, settings), once for each file and its MeshFileSettings, and
+/// returns a LoadedMeshT. MeshFileSettings::pictures is true if the materials of the
+/// file are used. WithExr also reads EXR pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is

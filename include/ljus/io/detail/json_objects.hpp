@@ -39,8 +39,8 @@ using FileSceneT = Scene<
 /// exception that names MeshFiles.
 template <std::floating_point T>
 struct NoMeshesT {
-    [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
-                                                  const std::string&) const {
+    [[noreturn]] LoadedMeshT<T> operator()(const std::string& file,
+                                           const MeshFileSettings&) const {
         refuse_file(file, "load_json() reads no meshes unless it is given MeshFiles, "
                           "from ljus/io/load_mesh.hpp");
     }
@@ -182,24 +182,29 @@ inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 <<
 /// instance is computed as a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
-// How an object names a mesh file, and whether it is made of the file's materials.
+// How an object names a mesh file. The pictures are read if the object has the
+// materials of the file.
 struct MeshName {
     JsonField file;
     std::string path;
-    double scale;
-    std::string normals;
-    bool own_materials;
+    MeshFileSettings settings;
 
     [[nodiscard]] bool same_reading(const MeshName& other) const {
-        return scale == other.scale && normals == other.normals &&
-               own_materials == other.own_materials;
+        const MeshFileSettings &a = settings, &b = other.settings;
+        return a.scale == b.scale && a.normals == b.normals && a.pictures == b.pictures;
     }
 };
 
 inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
     const JsonField file = in["file"];
-    return {file, path_beside(file), in.number("scale"), in.word("normals"),
-            own_materials};
+    const std::string normals = in.word("normals");
+    return {file,
+            path_beside(file),
+            {.scale = in.number("scale"),
+             .normals = normals == "smooth" ? MeshNormals::smooth
+                        : normals == "flat" ? MeshNormals::flat
+                                            : MeshNormals::file,
+             .pictures = own_materials}};
 }
 
 template <std::floating_point T>
@@ -253,16 +258,7 @@ struct FilePartsT {
 template <std::floating_point T, typename LoadMeshes>
 FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
                          FileMeshesT<T>& known, LoadMeshes& load_meshes) {
-    if (!named.own_materials)
-        return {load_meshes(named.path, named.scale, named.normals)};
-    const auto load = [&](auto& by) -> LoadedMeshT<T> {
-        if constexpr (requires { by.with_materials(named.path, 1.0, named.normals); })
-            return by.with_materials(named.path, named.scale, named.normals);
-        else
-            refuse(named.file, "is without a material; those of a mesh file are read "
-                               "by MeshFiles, from ljus/io/load_mesh.hpp");
-    };
-    LoadedMeshT<T> loaded = load(load_meshes);
+    LoadedMeshT<T> loaded = load_meshes(named.path, named.settings);
     for (const auto& [name, image] : loaded.pictures)
         known.pixels += image.pixels.size();
     if (known.pixels > std::size_t(max_image_pixels))
@@ -272,11 +268,12 @@ FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
                      std::to_string(max_image_pixels), " pixels"}));
     FilePartsT<T> parts;
     for (MeshPartT<T>& part : loaded.parts) {
+        parts.meshes.push_back(std::move(part.mesh));
+        if (!named.settings.pictures) continue;
         const MaterialId id = made_of(named.file, [&] {
             return add_material<FileMapT<T>>(scene, part.material, loaded);
         });
         parts.surfaces.push_back({id, RgbT<T>(part.material.emission)});
-        parts.meshes.push_back(std::move(part.mesh));
     }
     return parts;
 }
