@@ -22,7 +22,7 @@
 #include <glm/packing.hpp>
 
 #include "ljus/image/color.hpp"
-#include "ljus/image/layer.hpp"
+#include "ljus/image/image.hpp"
 #include "ljus/io/detail/picture_size.hpp"
 #include "ljus/io/file.hpp"
 

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/image/layer.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/render/first_hit.hpp"
