@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "ljus/io/load_mesh.hpp"
-#include "ljus/io/png.hpp"
 #include "ljus/scenes/mesh_formulas.hpp"
 #include "scratch_folder.hpp"
 #include "support/mesh_checks.hpp"
@@ -373,13 +372,19 @@ TEST_CASE("load_gltf: what its materials become") {
 }
 
 TEST_CASE("load_gltf: pictures of colour, of metal and roughness, and colours") {
-    Image two{2, 1, {Rgb{1, 0, 0}, Rgb{0, 1, 1}}};
+    // BMP: 2 x 1 pixels, left red 255 and right green 255 blue 255, bottom row first.
+    Bytes bmp = text_bytes("BM");
+    for (const int word : {54 + 8, 0, 54, 40, 2, 1})
+        add_number(bmp, std::uint64_t(word), 4);
+    add_number(bmp, 1, 2);
+    add_number(bmp, 24, 2);
+    for (int i = 0; i < 6; ++i) add_number(bmp, 0, 4);
+    bmp.insert(bmp.end(), {0, 0, 255, 255, 255, 0, 0, 0});
     File file;
     file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0, 0, 2, 1, 0});
     file.primitive()["attributes"]["TEXCOORD_1"] =
         file.add({0.2, 0, 0.2, 0, 0.2, 1, 0.8, 0, 0.8, 0, 0.8, 1}, "VEC2", f32);
-    file.all["images"] = {
-        {{"bufferView", file.view(encode_png(two))}, {"mimeType", "image/png"}}};
+    file.all["images"] = {{{"bufferView", file.view(bmp)}, {"mimeType", "image/bmp"}}};
     file.all["textures"] = {{{"source", 0}}};
     file.all["materials"] = R"([{"name": "two", "pbrMetallicRoughness":
         {"baseColorTexture": {"index": 0, "texCoord": 1}, "roughnessFactor": 0.5,

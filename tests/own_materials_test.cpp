@@ -30,22 +30,19 @@ struct Texel {
     int red, green, blue, alpha;
 };
 
-/// A PNG file with alpha, its rows from below.
-Bytes png(int width, const std::vector<Texel>& texels) {
-    const int height = int(texels.size()) / width;
-    Bytes file, pixels;
-    for (int y = height; y-- > 0;)
-        for (int x = 0; x < width; ++x) {
-            const Texel& t = texels[std::size_t(y * width + x)];
-            for (const int byte : {t.red, t.green, t.blue, t.alpha})
-                pixels.push_back(static_cast<unsigned char>(byte));
-        }
-    const auto append = [](void* to, void* data, int size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), bytes,
-                                        bytes + size);
+/// A BMP file of 32 bits, its rows from below.
+Bytes bmp(int width, const std::vector<Texel>& texels) {
+    Bytes file{'B', 'M'};
+    const std::size_t height = texels.size() / std::size_t(width);
+    const auto add = [&](std::size_t value, int size) {
+        add_number(file, value, size);
     };
-    stbi_write_png_to_func(append, &file, width, height, 4, pixels.data(), 4 * width);
+    add(54 + 4 * texels.size(), 4), add(0, 4), add(54, 4), add(40, 4);
+    add(std::size_t(width), 4), add(height, 4), add(1, 2), add(32, 2);
+    for (int i = 0; i < 6; ++i) add(0, 4);
+    for (const Texel& t : texels)
+        for (const int byte : {t.blue, t.green, t.red, t.alpha})
+            add(std::size_t(byte), 1);
     return file;
 }
 
@@ -133,8 +130,8 @@ void write_gltf(const ScratchFolder& folder, const json& material,
         for (const int x : {u, 1 - v}) add_float(bytes, float(x)); // v goes down
     for (const unsigned corner : {0u, 1u, 2u, 0u, 2u, 3u}) add_number(bytes, corner, 2);
     save_file(folder.file("a.bin"), bytes);
-    save_file(folder.file("four.png"), png(2, four));
-    save_file(folder.file("lean.png"), png(1, {{204, 128, 230, 255}}));
+    save_file(folder.file("four.bmp"), bmp(2, four));
+    save_file(folder.file("lean.bmp"), bmp(1, {{204, 128, 230, 255}}));
     json all = json::parse(R"({"asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "buffers": [{"uri": "a.bin", "byteLength": 92}],
@@ -147,7 +144,7 @@ void write_gltf(const ScratchFolder& folder, const json& material,
                        "type": "VEC2"},
                       {"bufferView": 2, "componentType": 5123, "count": 6,
                        "type": "SCALAR"}],
-        "images": [{"uri": "four.png"}, {"uri": "lean.png"}],
+        "images": [{"uri": "four.bmp"}, {"uri": "lean.bmp"}],
         "samplers": [{"magFilter": 9728}, {"magFilter": 9728, "wrapS": 33071,
                                            "wrapT": 33071}],
         "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 0},
@@ -171,13 +168,13 @@ const std::string gltf_object = R"({"type": "mesh", "file": "a.gltf"})";
 
 TEST_CASE("own materials: three of an MTL file, in a scene file and in code") {
     const ScratchFolder folder;
-    save_file(folder.file("four.png"), png(2, four));
+    save_file(folder.file("four.bmp"), bmp(2, four));
     write(folder, "a.mtl",
           "newmtl red\nKd 0.8 0.1 0.2\n"
           "newmtl mirror\nillum 3\nKs 0.9 0.8 0.7\n"
           "newmtl lamp\nKd 0 0 0\nKe 3 2 1\n"
-          "newmtl leaf\nKd 0.5 0.5 0.5\nmap_Kd -s 2 1 -o 0.25 -clamp off four.png\n"
-          "map_d four.png\n");
+          "newmtl leaf\nKd 0.5 0.5 0.5\nmap_Kd -s 2 1 -o 0.25 -clamp off four.bmp\n"
+          "map_d four.bmp\n");
     write(folder, "a.obj",
           "mtllib a.mtl\n" + square(0, 1, "red") + square(1, 5, "mirror") +
               square(2, 9, "lamp") + square(3, 13, "leaf"));
@@ -245,7 +242,7 @@ TEST_CASE("own materials: pictures of MTL files") {
     pixel(grey, 0, 0) = {srgb_decode(150.0f / 255), 0, 0};
     pixel(grey, 1, 0) = {srgb_decode(90.0f / 255), 1, 1};
     save_png(grey, folder.file("grey.png"));
-    save_file(folder.file("lean.png"), png(1, {{204, 128, 230, 255}}));
+    save_file(folder.file("lean.bmp"), bmp(1, {{204, 128, 230, 255}}));
     write(folder, "a.obj", "mtllib a.mtl\n" + square(0, 1, "a"));
     const auto notes = [&](const std::string& material) {
         write(folder, "a.mtl", "newmtl a\n" + material);
@@ -255,7 +252,7 @@ TEST_CASE("own materials: pictures of MTL files") {
         return text;
     };
     // A mask without alpha counts by its red, as a number.
-    CHECK(notes("map_d -s 3 3 3 grey.png\nnorm lean.png\n") ==
+    CHECK(notes("map_d -s 3 3 3 grey.png\nnorm lean.bmp\n") ==
           "a.mtl, line 2: map_d has options, -s; they are not used.\n");
     const World world =
         world_of(folder, scene_text(R"({"type": "mesh", "file": "a.obj"})"));
@@ -264,7 +261,7 @@ TEST_CASE("own materials: pictures of MTL files") {
     const Vec3 leaning = glm::normalize(Vec3{0.6f, 1 / 255.0f, 205 / 255.0f});
     CHECK(glm::distance(normal_seen(world, 0.25f, 0.5f), leaning) < 1e-6f);
 
-    CHECK(notes("map_Bump -bm 2 lean.png\n") ==
+    CHECK(notes("map_Bump -bm 2 lean.bmp\n") ==
           "a.mtl, line 2: map_Bump is a map of heights, which is not used; norm names "
           "one of normals.\n");
     CHECK(notes("Ke 1 1 1\nmap_d grey.png\n") ==
@@ -408,7 +405,7 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
     };
     using Colors = std::vector<Rgb>;
     const Rgb red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1}, white{1}, open{-1};
-    const std::string of_uv = R"("type": "picture", "file": "four.png", "map": "uv")";
+    const std::string of_uv = R"("type": "picture", "file": "four.bmp", "map": "uv")";
     CHECK(seen(of_uv) == Colors{red, green, blue, white});
     CHECK(seen(of_uv + R"(, "offset": [0.5, 0])") == Colors{green, red, white, blue});
     CHECK(seen(of_uv + R"(, "offset": [0.5, 0], "wrap": "clamp")") ==
@@ -417,7 +414,7 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
           Colors{green, red, white, blue});
     // (u, v) goes to (-v, u), which repeats.
     CHECK(seen(of_uv + R"(, "rotate_deg": 90)") == Colors{green, white, red, blue});
-    const std::string mapped = R"("type": "mapped", "file": "four.png")";
+    const std::string mapped = R"("type": "mapped", "file": "four.bmp")";
     CHECK(seen(mapped) == Colors{red, green, blue, white});
     CHECK(seen(mapped + R"(, "cutoff": 0.5)") == Colors{red, open, open, white});
     CHECK(seen(mapped + R"(, "cutoff": 0.3, "offset": [0, 0.5])") ==
@@ -426,7 +423,7 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
     const World world = world_of(
         folder, scene_text(R"({"type": "quad", "material": "m", "corner": [0, 0, 0],
                                "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]})",
-                           ", \"m\": {" + mapped + R"(, "normals": "lean.png"})"));
+                           ", \"m\": {" + mapped + R"(, "normals": "lean.bmp"})"));
     const Vec3 leaning = glm::normalize(Vec3{0.6f, 1 / 255.0f, 205 / 255.0f});
     CHECK(glm::distance(normal_seen(world, 0.25f, 0.5f), leaning) < 1e-6f);
 
@@ -451,7 +448,7 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
         CHECK(std::count(colors.begin(), colors.end(), blue) == 1 - holes);
         CHECK(std::count(colors.begin(), colors.end(), open) == 2 * holes);
     }
-    CHECK_THROWS_WITH_AS((void)on_disc(R"(, "normals": "lean.png")"),
+    CHECK_THROWS_WITH_AS((void)on_disc(R"(, "normals": "lean.bmp")"),
                          doctest::Contains("has a normal map"), std::invalid_argument);
 }
 

@@ -586,9 +586,24 @@ TEST_CASE("texture: what is saved as PNG is loaded again; what is not is named")
     Bytes bytes = encode_png(four());
     bytes.resize(bytes.size() / 2);
     CHECK(trouble_with(bytes).starts_with("a is damaged: "));
-    CHECK(refusal<std::runtime_error>([] {
-              (void)decode_image(Bytes(9), "b\n.png");
-          }).starts_with("b?.png is not a picture that can be read: "));
+    // Of a bitmap, impossible sizes: 0 x 0 and 2^30 x 2^30. It packs nothing: one of
+    // 100 x 100 pixels without them is cut short.
+    const auto bitmap = [](int side, int high) {
+        Bytes file{'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40};
+        file.resize(54 + 4);
+        file[18] = file[22] = static_cast<unsigned char>(side);
+        file[21] = file[25] = static_cast<unsigned char>(high);
+        file[26] = 1;
+        file[28] = 24;
+        return file;
+    };
+    for (const int high : {0x00, 0x40})
+        CHECK(refusal<std::runtime_error>([&] {
+                  (void)decode_image(bitmap(0, high), "b\n.bmp");
+              }).starts_with("b?.bmp "));
+    CHECK(trouble_with(bitmap(100, 0)) ==
+          "a is damaged: it ends in the middle of its pixels.");
+    CHECK(trouble_with({}).starts_with("a is not a picture that can be read: "));
 }
 
 TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
@@ -722,6 +737,46 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
                   jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile))
                   .empty());
     }
+
+    // BMP: one white pixel, with the longest head.
+    const auto bmp = [&](std::uint32_t kind, const Bytes& profile,
+                         bool primaries_of_p3) {
+        Bytes file(14 + 124 + 4);
+        const auto put = [&](std::size_t at, std::uint32_t value) {
+            for (std::size_t k = 0; k < 4; ++k)
+                file[at + k] = static_cast<unsigned char>(value >> 8 * k);
+        };
+        file[0] = 'B';
+        file[1] = 'M';
+        put(10, 138);
+        put(14, 124);
+        put(18, 1);
+        put(22, 1);
+        put(26, 1 | 24 << 16);
+        put(70, kind);
+        const std::array<double, 6> p3{0.68, 0.32, 0.265, 0.69, 0.15, 0.06};
+        for (std::size_t k = 0; k < 3 && primaries_of_p3; ++k) {
+            const double x = p3[2 * k], y = p3[2 * k + 1];
+            put(74 + 12 * k, std::uint32_t(x * (1 << 30)));
+            put(78 + 12 * k, std::uint32_t(y * (1 << 30)));
+            put(82 + 12 * k, std::uint32_t((1 - x - y) * (1 << 30)));
+        }
+        put(126, 128);
+        put(130, std::uint32_t(profile.size()));
+        file.insert(file.end(), profile.begin(), profile.end());
+        return file;
+    };
+    const std::uint32_t embedded = 0x4d424544, linked = 0x4c494e4b, srgb = 0x73524742;
+    const auto bmp_said = [&](std::uint32_t kind, const Bytes& profile, bool p3) {
+        return trouble_with(bmp(kind, profile, p3));
+    };
+    CHECK(bmp_said(0, {}, false).empty());
+    CHECK(bmp_said(srgb, {}, true).empty());
+    CHECK(bmp_said(0, {}, true) == other("its header"));
+    CHECK(bmp_said(linked, {}, false) == other("the colour profile that it names"));
+    CHECK(bmp_said(embedded, rows[0].profile, false).empty());
+    CHECK(bmp_said(embedded, rows[7].profile, false) ==
+          other("its colour profile 'Display P3'"));
 }
 
 TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
@@ -827,15 +882,76 @@ TEST_CASE("texture: files that other readers of pictures had trouble with") {
           "it as baseline JPEG or PNG.");
 }
 
+TEST_CASE("texture: BMP files from the top, of few colours, cut off and compressed") {
+    // `colors` are those of its palette: blue, green, red, and a byte for nothing.
+    const auto bmp = [](int width, int height, int bits, const Bytes& colors,
+                        const Bytes& pixels, int compression = 0) {
+        Bytes file{'B', 'M'};
+        const auto add = [&](long long value, int size) {
+            for (int k = 0; k < size; ++k)
+                file.push_back(static_cast<unsigned char>(value >> 8 * k));
+        };
+        const auto offset = static_cast<long long>(54 + colors.size());
+        for (const long long word : {0LL, 0LL, offset, 40LL}) add(word, 4);
+        add(width, 4);
+        add(height, 4);
+        add(1, 2);
+        add(bits, 2);
+        for (const int word : {compression, 0, 0, 0, 0, 0}) add(word, 4);
+        file.insert(file.end(), colors.begin(), colors.end());
+        file.insert(file.end(), pixels.begin(), pixels.end());
+        return file;
+    };
+    const Rgb red{1, 0, 0}, green{0, 1, 0}, black{0};
+    // A red row above a green one, stored in both orders.
+    const Bytes red_first{0, 0, 255, 0, 0, 255, 0, 0};
+    CHECK(decode_image(bmp(1, -2, 24, {}, red_first), "a").pixels ==
+          std::vector{red, green});
+    CHECK(decode_image(bmp(1, 2, 24, {}, red_first), "a").pixels ==
+          std::vector{green, red});
+    // Indices 0 to 3 into a palette of red and green, of a byte, half a byte and a bit.
+    const Bytes two{0, 0, 255, 0, 0, 255, 0, 0};
+    const std::vector right{red, green, black, black};
+    CHECK(decode_image(bmp(4, 1, 8, two, {0, 1, 2, 3}), "a").pixels == right);
+    CHECK(decode_image(bmp(4, 1, 4, two, {0x01, 0x23, 0, 0}), "a").pixels == right);
+    CHECK(decode_image(bmp(2, 1, 1, two, {0x40, 0, 0, 0}), "a").pixels ==
+          std::vector{red, green});
+    // The oldest head, and the last one of 256 colours of three bytes.
+    Bytes old{'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 26 + 0, 3, 0, 0, 12, 0, 0, 0};
+    old.insert(old.end(), {1, 0, 1, 0, 1, 0, 8, 0});
+    old.resize(26 + 3 * 256);
+    old[26 + 3 * 255 + 2] = 255;
+    old.insert(old.end(), {255, 0, 0, 0});
+    CHECK(decode_image(old, "a").pixels == std::vector{red});
+    // Each byte but those that fill up the last row is needed.
+    const Bytes whole = bmp(3, 2, 24, {}, Bytes(24, 200));
+    const std::string ends = "a is damaged: it ends in the middle of its pixels.";
+    for (std::size_t size = 54; size < whole.size() - 3; ++size)
+        CHECK(trouble_with(
+                  Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size))) == ends);
+    CHECK(trouble_with(Bytes(whole.begin(), whole.end() - 3)).empty());
+    CHECK(trouble_with(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
+              .find("a has 1 x 2147483648") == 0);
+    // Two bits for a pixel, and a header of 64 bytes.
+    const std::string rare =
+        "a is a BMP file that is damaged or of a rare kind; save it as PNG.";
+    CHECK(trouble_with(bmp(4, 1, 2, two, {0, 0, 0, 0})) == rare);
+    Bytes os2 = whole;
+    os2[14] = 64;
+    CHECK(trouble_with(os2) == rare);
+    CHECK(trouble_with(bmp(8, 1, 8, two, {8, 1, 0, 0, 0, 1}, 1)) ==
+          "a is a BMP file that is compressed; save it without, or as PNG.");
+}
+
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
           "PNG files only whole ones") {
     const std::string other = "a is not a picture that can be read: it is neither "
-                              "PNG nor JPEG.";
-    // BMP, Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
+                              "PNG, JPEG nor BMP.";
+    // Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
     for (const std::string_view begin :
-         {std::string_view("BM"), std::string_view("\x53\x80\xf6\x34"),
-          std::string_view("8BPS"), std::string_view("GIF89a"),
-          std::string_view("P6 1 1 255 abc"), std::string_view("\0\0\2", 3)}) {
+         {std::string_view("\x53\x80\xf6\x34"), std::string_view("8BPS"),
+          std::string_view("GIF89a"), std::string_view("P6 1 1 255 abc"),
+          std::string_view("\0\0\2", 3)}) {
         Bytes bytes(130, 1);
         std::copy(begin.begin(), begin.end(), bytes.begin());
         CHECK(trouble_with(bytes) == other);
@@ -1091,10 +1207,16 @@ TEST_CASE("texture: the sums of a damaged JPEG file wrap, and are clamped") {
 }
 
 TEST_CASE("texture: a file of many pixels and few bytes is refused") {
-    // 63 753 x 256 of three channels in 644 bytes, as a fuzzer found it.
+    // 10 289 152 x 3 pixels of 16 bits in 63 bytes, as a fuzzer found it.
+    Bytes bmp(63, 0);
+    bmp[0] = 'B', bmp[1] = 'M', bmp[10] = 54, bmp[14] = 40;
+    bmp[20] = 0x9d, bmp[22] = 3, bmp[26] = 1, bmp[28] = 16;
+    // 63 753 x 256 of three channels in 644 bytes, which the fuzzer found next.
     Bytes jpeg{0xff, 0xd8, 0xff, 0xc0, 0, 17,   8, 1, 0,    0xf9, 0x09,
                3,    1,    0x11, 0,    2, 0x11, 0, 3, 0x11, 0};
     jpeg.resize(644);
-    CHECK(trouble_with(jpeg) == "a is damaged: it ends in the middle of its pixels.");
+    for (const Bytes& file : {bmp, jpeg})
+        CHECK(trouble_with(file) ==
+              "a is damaged: it ends in the middle of its pixels.");
 }
 #endif

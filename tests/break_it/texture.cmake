@@ -62,7 +62,7 @@ ljus_break_it(NAME png-end HEADER io/detail/picture_damage.hpp TEST texture
 
 # Formats whose readers cannot be trusted are handed on.
 ljus_break_it(NAME image-kinds HEADER io/load_image.hpp TEST texture
-    FROM "if (!png && !text.starts_with(\"\\xff\\xd8\\xff\"))"
+    FROM "if (!png && !jpeg && !text.starts_with(\"BM\"))"
     TO   "if (bytes.empty())"
     CASES "texture: of pictures only*")
 
@@ -74,7 +74,7 @@ ljus_break_it(NAME jpeg-tables HEADER io/detail/picture_damage.hpp TEST texture
 
 # A file of a few bytes may promise as many pixels as it likes.
 ljus_break_it(NAME load-image-size HEADER io/load_image.hpp TEST texture
-    FROM "std::size_t(width) * std::size_t(height) / most > bytes.size()"
+    FROM "std::size_t(width) * std::size_t(high) / most > bytes.size()"
     TO   "false"
     CASES "texture: a file of many pixels*")
 
@@ -92,7 +92,7 @@ ljus_break_it(NAME picture-height HEADER image/texture.hpp TEST texture
 
 # Nobody looks for the marker behind the coded pixels.
 ljus_break_it(NAME jpeg-second-table HEADER io/detail/picture_damage.hpp TEST texture
-    FROM "if (kind == jpeg_scan) at = behind_pixels(file, at);"
+    FROM "if (kind == scan) at = behind_pixels(file, at);"
     TO   ""
     CASES "texture: the tables of a JPEG*")
 
@@ -152,8 +152,8 @@ ljus_break_it(NAME png-short-palette HEADER io/detail/picture_damage.hpp TEST te
 
 # A PNG file is not turned upright.
 ljus_break_it(NAME png-turned HEADER io/load_image.hpp TEST texture
-    FROM "png ? png_orientation(bytes) : jpeg_orientation(bytes)"
-    TO   "png ? 1 : jpeg_orientation(bytes)"
+    FROM "if (png) picture.orientation = png_orientation(bytes);"
+    TO   ""
     CASES "texture: files that other readers*")
 
 # Four channels are taken for brightness, two differences and nothing.
@@ -164,8 +164,8 @@ ljus_break_it(NAME jpeg-four-channels HEADER io/detail/picture_damage.hpp TEST t
 
 # Bytes that fill the gap before a segment end the search for the orientation.
 ljus_break_it(NAME jpeg-padding HEADER io/detail/picture_damage.hpp TEST texture
-    FROM "if (file[at] != 0xff || kind == padding) {"
-    TO   "if (kind == padding) return;\n        if (file[at] != 0xff) {"
+    FROM "if (kind == padding) {"
+    TO   "if (kind == padding) return;\n        if (kind == padding) {"
     CASES "texture: files that other readers*")
 
 # Beyond its border a picture repeats, although it ends there.
@@ -191,6 +191,18 @@ ljus_break_it(NAME texture-turn HEADER image/texture.hpp TEST texture
     FROM "map.turn.x * scaled.x - map.turn.y * scaled.y,"
     TO   "map.turn.x * scaled.x + map.turn.y * scaled.y,"
     CASES "texture: a UvMap scales*")
+
+# A BMP file that is cut off is black where it ends.
+ljus_break_it(NAME bmp-cut HEADER io/detail/picture_damage.hpp TEST texture
+    FROM "(height - 1) * row + (width * bits + 7) / 8"
+    TO   "(height - 1) * row"
+    CASES "texture: BMP files*")
+
+# Colours behind the end of a BMP file's palette are from memory that nobody has set.
+ljus_break_it(NAME bmp-palette HEADER io/load_image.hpp TEST texture
+    FROM ": is_bmp ? bmp_with_whole_palette(bytes)"
+    TO   ": is_bmp ? Bytes{}"
+    CASES "texture: BMP files*")
 
 # The brightness of an HDR picture is taken for that of a plain one.
 ljus_break_it(NAME png-cicp HEADER io/detail/picture_colors.hpp TEST texture

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
         const std::string name = file("png", std::to_string(channels) + ".png");
         stbi_write_png(name.c_str(), 9, 3, channels, screen.data(), 9 * channels);
     }
+    stbi_write_bmp(file("png", "3.bmp").c_str(), 9, 3, 3, screen.data());
     stbi_write_jpg(file("png", "50.jpg").c_str(), 9, 3, 3, screen.data(), 50);
     stbi_write_jpg(file("png", "95.jpg").c_str(), 9, 3, 3, screen.data(), 95);
 

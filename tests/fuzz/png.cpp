@@ -1,5 +1,5 @@
 /// \file tests/fuzz/png.cpp
-/// \brief Pictures: PNG and JPEG; of PNG the same with its sums put right.
+/// \brief Pictures: PNG, JPEG and BMP; of PNG the same with its sums put right.
 
 #include "fuzz.hpp"
 #include "ljus/io/load_image.hpp"

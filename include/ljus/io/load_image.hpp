@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/load_image.hpp
-/// \brief Loads PNG and JPEG pictures, in linear colours.
+/// \brief Loads PNG, JPEG and BMP pictures, in linear colours.
 ///
 /// This header compiles stb_image, hidden from other files. A program that compiles
 /// stb_image in the *same* file must include stb_image before this header. Without
@@ -41,6 +41,7 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
 #define STBI_MALLOC(size) ljus::detail::StbMemory::resize(nullptr, size)
@@ -55,14 +56,14 @@
 #undef STB_IMAGE_IMPLEMENTATION
 #undef STBI_ONLY_PNG
 #undef STBI_ONLY_JPEG
+#undef STBI_ONLY_BMP
 #undef STBI_NO_LINEAR
 #undef STBI_NO_STDIO
 #undef STBI_MALLOC
 #undef STBI_REALLOC
 #undef STBI_REALLOC_SIZED
 #undef STBI_FREE
-#undef STBI_NO_BMP // stb_image has defined the others itself
-#undef STBI_NO_GIF
+#undef STBI_NO_GIF // stb_image has defined the others itself
 #undef STBI_NO_HDR
 #undef STBI_NO_PIC
 #undef STBI_NO_PNM
@@ -99,7 +100,7 @@
 namespace ljus {
 
 /// \defgroup load_image Loading pictures
-/// \brief Loading needs the package stb_image. Only PNG and JPEG are read, because
+/// \brief Loading needs the package stb_image. Only PNG, JPEG and BMP are read, because
 /// the decoders of rare formats are more likely to fail on damaged files.
 /// \{
 
@@ -150,20 +151,30 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                                 bytes.size());
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
-    if (!png && !text.starts_with("\xff\xd8\xff"))
-        refuse("is not a picture that can be read: it is neither PNG nor JPEG");
-    if (const char* const kind = png ? nullptr : jpeg_kind_unread(bytes))
+    const bool jpeg = text.starts_with("\xff\xd8\xff");
+    if (!png && !jpeg && !text.starts_with("BM"))
+        refuse("is not a picture that can be read: it is neither PNG, JPEG nor BMP");
+    if (const char* const kind = jpeg ? jpeg_kind_unread(bytes) : nullptr)
         refuse(join({"is a JPEG file ", kind}));
-    if (const char* const why = png ? png_trouble(bytes) : jpeg_trouble(bytes))
+    if (const char* const why = png    ? png_trouble(bytes)
+                                : jpeg ? jpeg_trouble(bytes)
+                                       : nullptr)
         refuse(join({"is damaged: ", why}));
     if (png && stands_at(bytes, 12, "CgBI"))
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
-    const std::string says =
-        png ? png_other_colors(bytes, unpack_profile) : jpeg_other_colors(bytes);
+    const std::string says = png    ? png_other_colors(bytes, unpack_profile)
+                             : jpeg ? jpeg_other_colors(bytes)
+                                    : bmp_other_colors(bytes);
     if (colors && !says.empty())
         refuse(join({"has other colours than those of sRGB, as ", says,
                      " says; save it as sRGB"}));
+    const BmpHead bmp(bytes);
+    const bool is_bmp = !png && !jpeg;
+    const std::string rare_bmp =
+        "is a BMP file that is damaged or of a rare kind; save it as PNG";
+    if (is_bmp && bmp.compression != 0 && bmp.compression != 3)
+        refuse("is a BMP file that is compressed; save it without, or as PNG");
     // A 16-bit channel takes twice the memory before it is reduced to 8 bits.
     const bool is_deep = png && byte_at(bytes, 24) == 16;
     const int most_pixels = is_deep ? max_image_pixels / 2 : max_image_pixels;
@@ -184,20 +195,28 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
         require_size(png_number(bytes, 16), png_number(bytes, 20));
     DecodedBytes picture;
     if (png) picture.gamma = png_gamma(bytes);
-    picture.orientation = png ? png_orientation(bytes) : jpeg_orientation(bytes);
-    const Bytes filled = png ? with_whole_palette(bytes) : Bytes{};
+    if (png) picture.orientation = png_orientation(bytes);
+    if (jpeg) picture.orientation = jpeg_orientation(bytes);
+    const Bytes filled = png      ? with_whole_palette(bytes)
+                         : is_bmp ? bmp_with_whole_palette(bytes)
+                                  : Bytes{};
     const Bytes& read = filled.empty() ? bytes : filled;
     const auto* data = reinterpret_cast<const stbi_uc*>(read.data());
     const auto size = static_cast<int>(read.size());
     int &width = picture.width, &height = picture.height, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        refuse("is not a picture that can be read: its header is damaged or unknown");
-    require_size(width, height);
+        refuse(is_bmp ? rare_bmp
+                      : "is not a picture that can be read: its header is damaged or "
+                        "unknown");
+    // A negative height in a BMP file means that its rows are stored from the top.
+    const long long high = std::abs(static_cast<long long>(height));
+    require_size(width, high);
     // The largest number of pixels per byte: PNG packs about a thousand bytes, of eight
     // pixels each, into one; JPEG packs 64 pixels into a bit. A shorter file is
     // refused, because stb_image would fill missing data with zeros.
     const std::size_t most = png ? 8256 : 1024;
-    if (std::size_t(width) * std::size_t(height) / most > bytes.size())
+    if (is_bmp ? bmp.bytes(std::size_t(width), std::size_t(high)) > bytes.size()
+               : std::size_t(width) * std::size_t(high) / most > bytes.size())
         refuse("is damaged: it ends in the middle of its pixels");
     picture.pixels.reset(
         stbi_load_from_memory(data, size, &width, &height, &channels, wanted));
@@ -205,7 +224,7 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     if (picture.pixels) return picture;
     const char* const why = stbi_failure_reason(); // may quote bytes of the file
     const std::string reason = why != nullptr ? why : "error";
-    refuse(join({"is damaged: ", shown(reason)}));
+    refuse(is_bmp ? rare_bmp : join({"is damaged: ", shown(reason)}));
     return picture;
 }
 #endif

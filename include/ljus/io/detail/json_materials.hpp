@@ -167,8 +167,8 @@ inline constexpr JsonMember absorption_row = preset(
 inline constexpr JsonMember priority_row =
     preset("priority", {JsonKind::whole, 0, 1000, {}}, 0,
            "where bodies overlap, the highest holds");
-inline constexpr JsonMember picture_row =
-    needed("file", text_value, "PNG or JPEG, beside the scene file", "\"tile.png\"");
+inline constexpr JsonMember picture_row = needed(
+    "file", text_value, "PNG, JPEG or BMP, beside the scene file", "\"tile.png\"");
 inline constexpr JsonMember even_row =
     needed("even", color_value, "albedo of the even fields", "[0.9, 0.9, 0.9]");
 inline constexpr JsonMember odd_row =
@@ -316,7 +316,8 @@ constexpr auto material_rows() {
              map[7], wrap_row, filter_row},
             [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
         row("mapped", "matt, with pictures in the shape's own coordinates",
-            {needed("file", text_value, "its colours: PNG or JPEG", "\"tile.png\""),
+            {needed("file", text_value, "its colours: PNG, JPEG or BMP",
+                    "\"tile.png\""),
              optional(
                  "normals", text_value,
                  "a picture of normals: red along u, green along v, blue outwards; "

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_colors.hpp
-/// \brief Finds out whether a PNG or JPEG file declares a colour space other than sRGB.
+/// \brief Finds out whether a PNG, JPEG or BMP file declares a colour space other than
+/// sRGB.
 
 #include <array>
 #include <cmath>
@@ -170,7 +171,8 @@ inline std::string jpeg_other_colors(const Bytes& file) {
     bool adobe = false;
     constexpr std::string_view profile{"ICC_PROFILE\0", 12};
     find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
-        const std::size_t end = at - 2 + number_in(file, at - 2, 2);
+        const std::size_t end =
+            at - 2 + byte_at(file, at - 2) * 256 + byte_at(file, at - 1);
         if (kind == 0xe1 && stands_at(file, at, {"Exif\0\0", 6}))
             adobe = adobe || Tiff(file, at + 6).is_adobe_rgb();
         if (kind == 0xe2 && stands_at(file, at, profile) && end <= file.size() &&
@@ -178,12 +180,44 @@ inline std::string jpeg_other_colors(const Bytes& file) {
             parts[file[at + 12]].assign(
                 file.begin() + static_cast<std::ptrdiff_t>(at + 14),
                 file.begin() + static_cast<std::ptrdiff_t>(end));
-        return kind == jpeg_scan;
+        return false;
     });
     Bytes whole;
     for (const Bytes& part : parts) whole.insert(whole.end(), part.begin(), part.end());
     if (!whole.empty()) return other_profile(whole);
     return adobe ? "its EXIF data" : "";
+}
+
+// Names the part of a BMP file that declares a colour space other than sRGB; empty if
+// there is none. The header may give primaries and a gamma, or a profile.
+inline std::string bmp_other_colors(const Bytes& file) {
+    const std::size_t head = BmpHead(file).size;
+    const std::size_t kind = bmp_number(file, 70, 4);
+    if (head < 108) return {};
+    if (kind == 0x4d424544u) { // MBED
+        const std::size_t at = 14 + bmp_number(file, 126, 4);
+        const std::size_t size = bmp_number(file, 130, 4);
+        if (head < 124 || at > file.size() || size > file.size() - at)
+            return "its damaged colour profile";
+        const auto first = file.begin() + static_cast<std::ptrdiff_t>(at);
+        return other_profile(Bytes(first, first + static_cast<std::ptrdiff_t>(size)));
+    }
+    if (kind == 0x4c494e4bu) return "the colour profile that it names"; // LINK
+    if (kind != 0) return {}; // sRGB, or the default of Windows
+    std::array<double, 9> xyz{};
+    for (std::size_t k = 0; k < xyz.size(); ++k)
+        xyz[k] = static_cast<double>(bmp_number(file, 74 + 4 * k, 4));
+    std::array<double, 6> xy{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double sum = xyz[3 * k] + xyz[3 * k + 1] + xyz[3 * k + 2];
+        if (sum == 0) return {}; // most programs leave them 0
+        xy[2 * k] = xyz[3 * k] / sum;
+        xy[2 * k + 1] = xyz[3 * k + 1] / sum;
+    }
+    const double gamma = static_cast<double>(bmp_number(file, 110, 4)) / 65536;
+    const bool is_srgb =
+        are_srgb_primaries(xy) && (gamma == 0 || std::abs(gamma - 2.2) < 0.05);
+    return is_srgb ? "" : "its header";
 }
 
 } // namespace ljus::detail

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_damage.hpp
-/// \brief Tests PNG and JPEG files for damage that stb_image does not notice, and
+/// \brief Tests PNG, JPEG and BMP files for damage that stb_image does not notice, and
 /// for variants of these formats that stb_image does not read.
 
 #include <algorithm>
@@ -177,9 +177,6 @@ inline int png_orientation(const Bytes& file) {
     return orientation;
 }
 
-// The marker of a JPEG segment that coded pixels follow.
-inline constexpr unsigned char jpeg_scan = 0xda;
-
 // Whether stb_image can read the Huffman tables of a JPEG segment whose length is at
 // `at`. It has room for 256 entries per table, does not count them, and uses the number
 // 255 for no entry. The tables are noted in `there`: bit n for DC table n, bit 16 + n
@@ -187,7 +184,7 @@ inline constexpr unsigned char jpeg_scan = 0xda;
 inline bool good_huffman_tables(const Bytes& file, std::size_t at,
                                 std::uint32_t& there) {
     const auto byte = [&](std::size_t i) { return byte_at(file, i); };
-    auto left = static_cast<long long>(number_in(file, at, 2)) - 2;
+    auto left = static_cast<long long>(byte(at) * 256 + byte(at + 1)) - 2;
     for (at += 2; left > 0;) {
         std::size_t entries = 0;
         for (std::size_t i = 1; i <= 16; ++i) entries += byte(at + i);
@@ -227,20 +224,19 @@ inline std::size_t behind_pixels(const Bytes& file, std::size_t at) {
     return at;
 }
 
-// Calls use(kind, at) for each segment of a JPEG file, where `at` is the index after
-// the segment's length. Ends if use() returns true. Bytes between segments are skipped.
+// Calls use(kind, at) for each segment of a JPEG file before its pixels, where `at` is
+// the index after the segment's length. Ends if use() returns true.
 template <typename Use>
 void find_jpeg_segment(const Bytes& file, Use use) {
-    constexpr unsigned char padding = 0xff, end = 0xd9;
-    for (std::size_t at = 2; at < file.size() && file.size() - at >= 4;) {
+    constexpr unsigned char padding = 0xff, scan = 0xda;
+    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
         const unsigned char kind = file[at + 1];
-        if (file[at] != 0xff || kind == padding) {
+        if (kind == padding) {
             ++at;
             continue;
         }
-        if (kind == end || use(kind, at + 4)) return;
-        at += 2 + number_in(file, at + 2, 2);
-        if (kind == jpeg_scan) at = behind_pixels(file, at);
+        if (kind == scan || use(kind, at + 4)) return;
+        at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
     }
 }
 
@@ -250,7 +246,7 @@ inline int jpeg_orientation(const Bytes& file) {
     find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
         const bool found = kind == 0xe1 && stands_at(file, at, {"Exif\0\0", 6});
         if (found) orientation = Tiff(file, at + 6).orientation();
-        return found || kind == jpeg_scan;
+        return found;
     });
     return orientation;
 }
@@ -264,7 +260,7 @@ inline const char* jpeg_kind_unread(const Bytes& file) {
         adobe = adobe || (kind == 0xee && stands_at(file, at, "Adobe"));
         const bool frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 &&
                            kind != 0xc8 && kind != 0xcc;
-        if (!frame || at + 6 > file.size()) return kind == jpeg_scan;
+        if (!frame || at + 6 > file.size()) return false;
         if (kind > 0xc2)
             why = "that is lossless, in layers or coded arithmetically; save it as "
                   "baseline JPEG or PNG";
@@ -282,23 +278,66 @@ inline const char* jpeg_kind_unread(const Bytes& file) {
 // takes time for the whole picture, and can be as short as ten bytes. A baseline file
 // has at most one per channel, and a progressive file usually about ten.
 inline const char* jpeg_trouble(const Bytes& file) {
-    constexpr unsigned char tables = 0xc4, progressive = 0xc2;
+    constexpr unsigned char tables = 0xc4, progressive = 0xc2, scan = 0xda, end = 0xd9;
     std::uint32_t there = 0;
     int scans = 0;
     bool in_parts = false;
-    const char* trouble = nullptr;
-    find_jpeg_segment(file, [&](unsigned char kind, std::size_t at) {
+    for (std::size_t at = 2; at < file.size() && file.size() - at >= 4;) {
+        const unsigned char kind = file[at + 1];
+        if (file[at] != 0xff || kind == 0xff) { // padding
+            ++at;
+            continue;
+        }
+        if (kind == end) break;
         in_parts = in_parts || kind == progressive;
-        if (kind == tables && !good_huffman_tables(file, at - 2, there))
-            trouble = "a table has more than 255 entries";
-        else if (kind == jpeg_scan && !finds_tables(file, at - 2, in_parts, there))
-            trouble = "a scan uses a table that is not there";
-        else if (kind == jpeg_scan && ++scans > (in_parts ? 64 : 4))
-            trouble = in_parts ? "it has more than 64 scans"
-                               : "it has more than 4 scans, and is not progressive";
-        return trouble != nullptr;
-    });
-    return trouble;
+        if (kind == tables && !good_huffman_tables(file, at + 2, there))
+            return "a table has more than 255 entries";
+        if (kind == scan && !finds_tables(file, at + 2, in_parts, there))
+            return "a scan uses a table that is not there";
+        if (kind == scan && ++scans > (in_parts ? 64 : 4))
+            return in_parts ? "it has more than 64 scans"
+                            : "it has more than 4 scans, and is not progressive";
+        at += 2 + std::size_t(file[at + 2]) * 256 + file[at + 3];
+        if (kind == scan) at = behind_pixels(file, at);
+    }
+    return nullptr;
+}
+
+inline std::size_t bmp_number(const Bytes& file, std::size_t at, std::size_t bytes) {
+    return number_in(file, at, bytes, true);
+}
+
+// The header of a BMP file.
+struct BmpHead {
+    std::size_t offset, size, bits, compression; // offset of the pixels, size of the
+                                                 // header, bits of a pixel
+    explicit BmpHead(const Bytes& file)
+        : offset(bmp_number(file, 10, 4)), size(bmp_number(file, 14, 4)),
+          bits(bmp_number(file, size == 12 ? 24 : 28, 2)),
+          compression(size == 12 ? 0 : bmp_number(file, 30, 4)) {}
+    // The size of a file with a picture of this width and height, in bytes. The padding
+    // of the last row is left out.
+    [[nodiscard]] std::size_t bytes(std::size_t width, std::size_t height) const {
+        const std::size_t row = (width * bits + 31) / 32 * 4;
+        return offset + (height - 1) * row + (width * bits + 7) / 8;
+    }
+};
+
+// A copy of a BMP file whose palette is filled up with black, as in
+// with_whole_palette().
+inline Bytes bmp_with_whole_palette(const Bytes& file) {
+    const BmpHead head(file);
+    // In files with the oldest header stb_image counts four colours too few.
+    const std::size_t full = 14 + head.size + (head.size == 12 ? 3 * 260 : 4 * 256);
+    if (head.bits >= 16 || head.offset < 14 + head.size || head.offset >= full ||
+        head.offset > file.size())
+        return {};
+    Bytes whole = file;
+    whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(head.offset),
+                 full - head.offset, 0);
+    for (std::size_t k = 0; k < 4; ++k)
+        whole[10 + k] = static_cast<unsigned char>(full >> 8 * k);
+    return whole;
 }
 
 } // namespace ljus::detail
