@@ -54,11 +54,11 @@ std::vector<Photon> photons_of(const W& world, const PhotonPassSettings& pass,
 
 /// The strips of rows that a rank renders. Strips are dealt to the ranks in turn, so
 /// that all of them share the slow regions.
-std::vector<RowRange> strips_of(const Rank& rank, int height) {
+std::vector<PixelRegion> strips_of(const Rank& rank, int width, int height) {
     constexpr int strip = 8; // rows
-    std::vector<RowRange> strips;
+    std::vector<PixelRegion> strips;
     for (int row = rank.number * strip; row < height; row += rank.count * strip)
-        strips.push_back({row, std::min(row + strip, height)});
+        strips.push_back({0, row, width, std::min(strip, height - row)});
     return strips;
 }
 
@@ -88,10 +88,10 @@ void body(examples::CommandLine& line, Rank& rank) {
     if (!line.given("--height")) picture.height = file.height;
     // [rows]
     Image image = make_image(picture.width, picture.height);
-    for (const RowRange& rows : strips_of(rank, picture.height)) {
-        const Image strip = render_rows(mapper, file.camera, picture, rows).image;
+    for (const PixelRegion& rows : strips_of(rank, picture.width, picture.height)) {
+        const Image strip = render_region(mapper, file.camera, picture, rows).image;
         std::copy(strip.pixels.begin(), strip.pixels.end(),
-                  image.pixels.begin() + std::ptrdiff_t(rows.first) * picture.width);
+                  image.pixels.begin() + std::ptrdiff_t(rows.y) * picture.width);
     }
     // Each pixel is 0 on all ranks except one, so no sum is rounded.
     Rgb* const pixels = image.pixels.data();

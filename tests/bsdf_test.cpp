@@ -137,7 +137,7 @@ TEST_CASE("bsdf: which hooks a material has, by name") {
     CHECK(names(ljus::detail::material_hooks<ljus::Glass>()) ==
           "absorption refractive_index split only_specular ");
     CHECK(names(ljus::detail::material_hooks<ljus::Nested<ljus::Glass>>()) ==
-          "absorption refractive_index priority emission at_point split ");
+          "absorption refractive_index priority emission at_point ");
     CHECK(names(ljus::detail::material_hooks<ljus::ThinGlass>()) ==
           "pass_through only_specular ");
     CHECK(names(ljus::detail::material_hooks<reader::Wall>()) == "at_point uses_uv ");

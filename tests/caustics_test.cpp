@@ -607,16 +607,15 @@ TEST_CASE(
     PhotonMappingSettings settings{.indirect = IndirectLight::map};
     settings.caustics = {.photons = 5000, .threads = 1};
     settings.general = {.photons = 5000, .threads = 1};
-    PhotonMapper mapper(room, settings);
-    const auto& maps = mapper.maps();
     for (const float radius : {0.0f, 0.125f}) {
         settings.caustics_estimate.radius = settings.general_estimate.radius = radius;
-        mapper.set_estimates(settings.caustics_estimate, settings.general_estimate);
+        const PhotonMapper mapper(room, settings);
+        const auto& maps = mapper.maps();
+        CHECK(typical_radius(maps.caustics, 32) > 0);
+        CHECK(typical_radius(maps.caustics, 32) < typical_radius(maps.caustics, 33));
         CHECK(mapper.settings().caustics_estimate.radius ==
               (radius > 0 ? radius : float(typical_radius(maps.caustics, 32))));
         CHECK(mapper.settings().general_estimate.radius ==
               (radius > 0 ? radius : float(typical_radius(maps.general, 64))));
     }
-    CHECK(typical_radius(maps.caustics, 32) > 0);
-    CHECK(typical_radius(maps.caustics, 32) < typical_radius(maps.caustics, 33));
 }

@@ -320,27 +320,10 @@ TEST_CASE("exr: other primaries than those of sRGB are refused by name") {
 }
 
 TEST_CASE("exr: what reads meshes reads pictures as well") {
-    const WithExr files{
-        [](const std::string& path, double scale, const std::string& normals) {
-            return path + " " + std::to_string(int(scale)) + " " + normals;
-        }};
-    CHECK(files("a.obj", 3, "flat") == "a.obj 3 flat");
-    // Materials as well, if it reads them: without this no scene file of a program with
-    // EXR could name a mesh file for its materials.
-    struct Materials {
-        std::string with_materials(const std::string& path, double scale,
-                                   const std::string& normals) const {
-            return normals + " " + std::to_string(int(scale)) + " " + path;
-        }
-    };
-    CHECK(WithExr{Materials{}}.with_materials("a.obj", 3, "flat") == "flat 3 a.obj");
-    const auto reads_materials = [](const auto& by) {
-        return requires {
-            by.with_materials("", 1.0, "");
-        };
-    };
-    CHECK(reads_materials(WithExr{Materials{}}));
-    CHECK_FALSE(reads_materials(files));
+    const WithExr files{[](const std::string& path, int settings) {
+        return path + " " + std::to_string(settings);
+    }};
+    CHECK(files("a.obj", 3) == "a.obj 3");
     CHECK(files.load_picture<float>(input("piz")).pixels ==
           load_exr(input("none")).pixels);
 }

@@ -156,7 +156,7 @@ TEST_CASE("load_mesh: the end of a name says which format a file has") {
         REQUIRE(loaded.parts.size() == 1);
         CHECK(loaded.parts[0].mesh.size() == data.triangles.size());
         CHECK(double(area(loaded.parts[0].mesh)) == doctest::Approx(area_of(data)));
-        CHECK(MeshFiles{}(folder.file(name), 1, "flat").size() == 1);
+        CHECK(MeshFiles{}(folder.file(name), {}).parts.size() == 1);
     }
     for (const char* name : {"mesh.json", "mesh", "", "obj"})
         CHECK(refusal_of([&] { return load_mesh(name); }) ==
@@ -164,8 +164,7 @@ TEST_CASE("load_mesh: the end of a name says which format a file has") {
                                   ".gltf or .glb.");
 }
 
-TEST_CASE(
-    "load_mesh: a file of meshes for a scene file, with the normals it asks for") {
+TEST_CASE("load_mesh: a file of meshes for a scene file, and a report of what is odd") {
     const ScratchFolder folder;
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 -1\n"
                             "f 1//1 3//1 2//1\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -174,14 +173,12 @@ TEST_CASE(
     ScratchFolder::write(odd, obj + "f 1 2 99\n");
     std::string report;
     const MeshFiles meshes{&report};
-    CHECK(meshes(good, 2, "flat")[0].data().normals.empty());
-    CHECK(meshes(good, 2, "smooth")[0].data().normals[0] != Vec3{0});
-    CHECK(area(meshes(good, 2, "file")[0]) ==
+    CHECK(area(meshes(good, {.scale = 2}).parts[0].mesh) ==
           doctest::Approx(4 * (1.5 + std::sqrt(0.75))));
     CHECK(report.empty());
-    (void)meshes(odd, 2, "file");
+    (void)meshes(odd, {});
     CHECK(report.find(odd + ":\nline 10: ") == 0);
-    CHECK(MeshFiles{}(odd, 2, "file").size() == 1);
+    CHECK(MeshFiles{}(odd, {}).parts.size() == 1);
 }
 
 TEST_CASE("load_gltf: triangles, strips and fans, with indices of each type or none") {

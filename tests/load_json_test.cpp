@@ -65,9 +65,16 @@ std::string changed(const std::string& from, const std::string& to) {
 }
 
 // What reads meshes: one type in all cases, so that the reader is compiled once.
-using ReadMeshes =
-    std::function<std::vector<Mesh>(const std::string&, double, const std::string&)>;
+using ReadMeshes = std::function<LoadedMesh(const std::string&, MeshFileSettings)>;
 const ReadMeshes no_meshes = detail::NoMeshesT<float>{}; // what is the default
+
+// The content of a mesh file.
+template <typename... M>
+LoadedMesh of_meshes(M... meshes) {
+    LoadedMesh loaded;
+    (loaded.parts.push_back({std::move(meshes), {}}), ...);
+    return loaded;
+}
 
 LoadedScene read(const std::string& text, const ReadMeshes& meshes = no_meshes,
                  const std::string& file = "a.json") {
@@ -336,11 +343,11 @@ TEST_CASE("load_json: objects are scaled, turned and displaced") {
 
 TEST_CASE("load_json: a mesh file is placed wherever it is named") {
     int calls = 0;
-    const auto load = [&](const std::string&, double, const std::string&) {
+    const auto load = [&](const std::string&, const MeshFileSettings&) {
         ++calls;
-        return std::vector<Mesh>{Mesh({.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                                       .normals{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
-                                       .triangles{{0, 1, 2}}})};
+        return of_meshes(Mesh({.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                               .normals{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+                               .triangles{{0, 1, 2}}}));
     };
     const auto mesh = [](const std::string& rest) {
         return R"({"type": "mesh", "file": "m.obj", "material": "matt")" + rest + "}, ";
@@ -431,18 +438,6 @@ TEST_CASE("load_json: groups of lamps are dimmed together") {
                          "lamp_groups, which the file lacks.");
     refused(grouped(R"(, "lamp_groups": {"top": -1})"),
             "lamp_groups.top is -1; it must be within [0, 1e9].");
-}
-
-TEST_CASE("load_json: the names of C++ are read as well, but not both") {
-    const auto scene = read(changed("{\"type\": \"dielectric\", \"ior\": 1.5}",
-                                    "{\"type\": \"glass\", \"index\": 1.25}"))
-                           .scene;
-    CHECK(std::get<std::vector<Nested<Glass>>>(scene.materials).at(0).base.index ==
-          1.25f);
-    const auto camera = read(changed("\"look_at\"", "\"target\"")).camera;
-    CHECK(camera.pinhole.forward == Vec3{0, 0, -1});
-    refused("\"ior\": 1.5", "\"ior\": 1.5, \"index\": 1.5",
-            "materials.glass.index is given as ior as well.");
 }
 
 TEST_CASE("load_json: for a wrong word the nearest one is proposed") {
@@ -561,8 +556,8 @@ TEST_CASE("load_json: the report's sliders") {
         return std::get<std::vector<Nested<Mixture>>>(loaded.scene.materials).at(0);
     };
     const Mixture plain = made("").base;
-    CHECK(made("").priority == 0);
-    CHECK(made(R"(, "priority": 3)").priority == 3);
+    CHECK(made("").texture.number == 0);
+    CHECK(made(R"(, "priority": 3)").texture.number == 3);
     CHECK(plain.color == Rgb{0.5f, 0.25f, 1});
     CHECK(plain.index == 1.5f);
     for (const float slider :
@@ -624,7 +619,7 @@ TEST_CASE("load_json: each name makes its own material") {
         read(with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"));
     const auto& glasses = std::get<std::vector<Nested<Glass>>>(green.scene.materials);
     CHECK(glasses.at(0).base.absorption == Rgb{3, 0, 3});
-    CHECK(glasses.at(0).priority == 0);
+    CHECK(glasses.at(0).texture.number == 0);
     const World in_order(
         read(with(R"({"type": "dielectric", "ior": 1.3, "priority": 2})")).scene);
     CHECK(in_order.has_priorities());
@@ -719,9 +714,9 @@ TEST_CASE("load_json: a picture as a texture, and one that is not there") {
     CHECK(material_at(paper, Vec3{5}, Vec2{0.75f, 0.5f}).albedo == Rgb{0, 0, 1});
     // On a mesh it is found by the coordinates of the mesh.
     const auto wall = [](const auto&...) {
-        return std::vector<Mesh>{Mesh({.positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
-                                       .triangles{{0, 1, 2}},
-                                       .uv{{0, 0}, {1, 0}, {0, 1}}})};
+        return of_meshes(Mesh({.positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+                               .triangles{{0, 1, 2}},
+                               .uv{{0, 0}, {1, 0}, {0, 1}}}));
     };
     std::string hung = scene;
     const std::string list = "\"objects\": [";
@@ -1325,14 +1320,12 @@ TEST_CASE("load_json: the numbers that the table above leaves out have limits, t
 TEST_CASE("load_json: who reads meshes is told the file, the scale and the normals") {
     struct Call {
         std::string path;
-        double scale;
-        std::string normals;
+        MeshFileSettings settings;
     };
     std::vector<Call> calls;
-    const auto load = [&](const std::string& path, double scale,
-                          const std::string& normals) {
-        calls.push_back({path, scale, normals});
-        return std::vector<MeshT<float>>{};
+    const auto load = [&](const std::string& path, const MeshFileSettings& settings) {
+        calls.push_back({path, settings});
+        return LoadedMesh{};
     };
     const auto said = [&](const std::string& rest) {
         const std::string mesh =
@@ -1346,14 +1339,15 @@ TEST_CASE("load_json: who reads meshes is told the file, the scale and the norma
     CHECK(said(R"(, "scale": 2.5, "normals": "file")") == "accepted");
     REQUIRE(calls.size() == 4);
     for (const Call& call : calls) CHECK(call.path == "sub/m.obj");
-    CHECK(calls[0].scale == 1);
-    CHECK(calls[1].scale == 1e-9);
-    CHECK(calls[2].scale == 1e9);
-    CHECK(calls[3].scale == 2.5);
-    CHECK(calls[0].normals == "file");
-    CHECK(calls[1].normals == "smooth");
-    CHECK(calls[2].normals == "flat");
-    CHECK(calls[3].normals == "file");
+    for (const Call& call : calls) CHECK_FALSE(call.settings.pictures);
+    CHECK(calls[0].settings.scale == 1);
+    CHECK(calls[1].settings.scale == 1e-9);
+    CHECK(calls[2].settings.scale == 1e9);
+    CHECK(calls[3].settings.scale == 2.5);
+    CHECK(calls[0].settings.normals == MeshNormals::file);
+    CHECK(calls[1].settings.normals == MeshNormals::smooth);
+    CHECK(calls[2].settings.normals == MeshNormals::flat);
+    CHECK(calls[3].settings.normals == MeshNormals::file);
     for (const char* const scale : {"0", "-1", "0.99e-9", "1.01e9"})
         CHECK(said(std::string(", \"scale\": ") + scale)
                   .find("; it must be within [1e-9, 1e9].") != std::string::npos);
@@ -1368,12 +1362,12 @@ TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
                             .triangles{{0, 1, 2}}};
     int calls = 0;
     std::size_t triangles = 1;
-    const auto load = [&](const std::string&, double scale, const std::string&) {
+    const auto load = [&](const std::string&, const MeshFileSettings& settings) {
         ++calls;
         MeshData data = triangle;
-        data.positions[1].x = float(scale);
+        data.positions[1].x = float(settings.scale);
         data.triangles.resize(triangles, data.triangles[0]);
-        return std::vector<Mesh>{Mesh(triangle), Mesh(data)};
+        return of_meshes(Mesh(triangle), Mesh(data));
     };
     const auto objects = [](int count, int different = 1) {
         std::string text;
@@ -1417,13 +1411,11 @@ TEST_CASE("load_json: a mesh file is read once for each scale and normals") {
 TEST_CASE("load_json: instances place a mesh that is read once") {
     int calls = 0;
     std::uint32_t triangles = 1;
-    const auto load = [&](const std::string&, double scale, const std::string&) {
+    const auto load = [&](const std::string&, const MeshFileSettings& settings) {
         ++calls;
-        MeshData data{.positions{{0, 0, 0}, {float(scale), 0, 0}, {0, 1, 0}}};
+        MeshData data{.positions{{0, 0, 0}, {float(settings.scale), 0, 0}, {0, 1, 0}}};
         data.triangles.resize(triangles, {0, 1, 2});
-        std::vector<Mesh> meshes;
-        meshes.emplace_back(data);
-        return meshes;
+        return of_meshes(Mesh(data));
     };
     const auto with = [](const std::string& places, int count = 1) {
         std::string text;

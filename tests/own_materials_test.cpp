@@ -452,20 +452,9 @@ TEST_CASE("own materials: pictures in scene files lie as they are told") {
                          doctest::Contains("has a normal map"), std::invalid_argument);
 }
 
-TEST_CASE("own materials: who reads no materials says so") {
+TEST_CASE("own materials: a material may be called \"file\"") {
     const ScratchFolder folder;
     write_gltf(folder, pictured());
-    const std::string text = scene_text(gltf_object);
-    const auto why = [&](auto load) {
-        return ljus_test::refusal<std::runtime_error>(
-            [&] { (void)read_json_scene(text, "s.json", load); });
-    };
-    CHECK(why([](const std::string&, double, const std::string&) {
-              return std::vector<Mesh>{};
-          }) ==
-          "s.json: objects[0].file is without a material; those of a mesh file are "
-          "read by MeshFiles, from ljus/io/load_mesh.hpp.");
-    // A material may be called "file" nevertheless.
     CHECK(
         refusal(folder,
                 scene_text(R"({"type": "mesh", "file": "a.gltf", "material": "file"})",

@@ -741,41 +741,6 @@ TEST_CASE("photon mapping: a chosen radius that is out of range is refused") {
     CHECK(refusal([&] { (void)made(1e-18); }).find("gather.radius is ") == 0);
 }
 
-TEST_CASE("photon mapping: the maps can be asked in another way") {
-    const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
-    const Camera camera = room_camera<float>();
-    const RenderSettings picture{.width = 12, .height = 9, .samples = 2, .threads = 1};
-    PhotonMapper mapper(room, few_photons(IndirectLight::photons));
-    const auto before = render(mapper, camera, picture).image;
-    PhotonMappingSettings other = few_photons(IndirectLight::photons);
-    other.caustics_estimate = {.radius = 0.3f, .nearest = 20};
-    other.general_estimate = {.radius = 0.5f, .kernel = Kernel::cone};
-    mapper.set_estimates(other.caustics_estimate, other.general_estimate);
-    const auto after = render(mapper, camera, picture).image;
-    CHECK(after.pixels != before.pixels);
-    CHECK(after.pixels ==
-          render(PhotonMapper(room, other), camera, picture).image.pixels);
-    // A radius of 0 is chosen from the photons.
-    mapper.set_estimates({.radius = 0}, {.radius = 0});
-    CHECK(mapper.settings().caustics_estimate.radius ==
-          float(typical_radius(mapper.maps().caustics, 32)));
-    CHECK(mapper.settings().general_estimate.radius ==
-          float(typical_radius(mapper.maps().general, 64)));
-    // What gives no estimate is refused, and nothing is changed.
-    const auto kept = mapper.settings();
-    for (const auto& [caustics, general] :
-         {std::pair{DensityEstimateSettings{.radius = -1}, DensityEstimateSettings{}},
-          {DensityEstimateSettings{}, DensityEstimateSettings{.thickness = 0}}}) {
-        CHECK_FALSE(refusal([&, c = caustics, g = general] {
-                        mapper.set_estimates(c, g);
-                    }).empty());
-        CHECK(mapper.settings().caustics_estimate.radius ==
-              kept.caustics_estimate.radius);
-        CHECK(mapper.settings().general_estimate.thickness ==
-              kept.general_estimate.thickness);
-    }
-}
-
 TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {
     const ClosedRoom room = make_room<float>(Ball::glass, Lamp::quad, 1);
     auto settings = few_photons(IndirectLight::photons);

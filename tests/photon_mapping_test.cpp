@@ -136,11 +136,9 @@ TEST_CASE(
                 .photons = 12000, .seed = test_seed(seed), .threads = 1};
             settings.caustics_estimate.radius = 0.03f;
             settings.general_estimate.radius = 0.16f;
-            PhotonMapper mapper(room, settings);
-            const double broad = mean_of(mapper, seed);
+            const double broad = mean_of(PhotonMapper(room, settings), seed);
             settings.general_estimate.radius = 0.04f;
-            mapper.set_estimates(settings.caustics_estimate, settings.general_estimate);
-            const double fine = mean_of(mapper, seed);
+            const double fine = mean_of(PhotonMapper(room, settings), seed);
             straight.add((4 * fine - broad) / 3);
             darker.add((broad - fine) / traced.mean);
         }

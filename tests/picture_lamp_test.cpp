@@ -412,7 +412,7 @@ TEST_CASE("picture lamp: what is no lamp is refused") {
         why({.picture = bad}).starts_with("picture lamp.picture, column 2, row 1 is"));
     pixel(bad, 2, 1).y = std::numeric_limits<float>::infinity();
     CHECK(why({.picture = bad}) != "");
-    CHECK(why({.albedo = Rgb{2}}).starts_with("picture lamp.albedo is"));
+    CHECK(why({.base{Rgb{2}}}).starts_with("picture lamp.albedo is"));
     // Only quads and discs have a picture; others may have the material in the dark.
     const auto world_of = [](const auto& shape, const Rgb& radiance) {
         return refusal(

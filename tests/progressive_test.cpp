@@ -759,7 +759,7 @@ TEST_CASE("progressive: the standard error is over all channels and pixels") {
     auto five = make_image<double>(5, 3);
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 5; ++x) pixel(five, x, y) = RgbT<double>(x + 10.0 * y);
-    const auto means = detail::means_of_blocks(five, 2);
+    const auto means = block_means(five, 2);
     REQUIRE(means.width == 3);
     REQUIRE(means.height == 2);
     CHECK(pixel(means, 0, 0).x == doctest::Approx(5.5));

@@ -574,29 +574,18 @@ TEST_CASE("render: rows that are rendered apart are the whole, byte by byte") {
     for (const int parts : {1, 2, 3, 13}) {
         Counts counts;
         for (int i = 0; i < parts; ++i) {
-            const RowRange rows{13 * i / parts, 13 * (i + 1) / parts};
-            const auto part = render_rows(tracer, Camera{}, picture, rows);
+            const int first = 13 * i / parts, last = 13 * (i + 1) / parts;
+            const auto part =
+                render_region(tracer, Camera{}, picture, {0, first, 21, last - first});
             REQUIRE(part.image.width == 21);
-            REQUIRE(part.image.height == rows.last - rows.first);
-            for (int y = rows.first; y < rows.last; ++y)
+            REQUIRE(part.image.height == last - first);
+            for (int y = first; y < last; ++y)
                 for (int x = 0; x < 21; ++x)
-                    CHECK(pixel(part.image, x, y - rows.first) ==
-                          pixel(whole.image, x, y));
+                    CHECK(pixel(part.image, x, y - first) == pixel(whole.image, x, y));
             counts += part.counts;
         }
         CHECK(counts.rays() == whole.counts.rays());
     }
-    CHECK_THROWS_WITH_AS(
-        (void)render_rows(tracer, Camera{}, picture, {5, 5}),
-        "the first row is 5; it must be at least 0 and below the last.",
-        std::invalid_argument);
-    CHECK_THROWS_WITH_AS(
-        (void)render_rows(tracer, Camera{}, picture, {-1, 5}),
-        "the first row is -1; it must be at least 0 and below the last.",
-        std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)render_rows(tracer, Camera{}, picture, {5, 14}),
-                         "the last row is 14; it must be at most the picture's height.",
-                         std::invalid_argument);
 }
 
 namespace {

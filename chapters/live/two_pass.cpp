@@ -156,8 +156,9 @@ extern "C" {
 [[gnu::used]] const float* render_rows(int width, int height, double seed, int first,
                                        int last) {
     rendered = with_renderer([&](const auto& renderer) {
-        auto some = ljus::render_rows(renderer, camera,
-                                      picture(width, height, seed), {first, last});
+        auto some =
+            ljus::render_region(renderer, camera, picture(width, height, seed),
+                                {0, first, width, last - first});
         counts = some.counts;
         return some.image;
     });

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/image/layer.hpp"
+#include "ljus/image/image.hpp"
 
 #ifdef LJUS_HAS_OPENEXR
 #include "ljus/io/exr.hpp"

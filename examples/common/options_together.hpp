@@ -222,10 +222,7 @@ inline void choose_pixels(RenderRequest& r) {
     const auto [width, height] = std::pair{r.picture.width, r.picture.height};
     r.pixels = {0, 0, width, height};
     if (!r.layers.empty()) r.which = layer_settings(r.layers);
-    if (r.part.count > 0) {
-        const ljus::RowRange rows = rows_of(r.part, height);
-        r.pixels = {0, rows.first, width, rows.last - rows.first};
-    }
+    if (r.part.count > 0) r.pixels = rows_of(r.part, width, height);
     if (r.region.empty()) return;
     const std::size_t second = r.region.find(',', r.region.find(',') + 1);
     const auto first = two_numbers(r.region.substr(0, second), ',');

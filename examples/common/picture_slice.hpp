@@ -59,12 +59,15 @@ inline constexpr int max_slices = 65536;
 
 /// The rows of a slice. If there are more slices than rows, some slices have no rows.
 /// \param slice   The number of the slice.
+/// \param width   Width of the whole picture, in pixels.
 /// \param height  Height of the whole picture, in pixels.
-[[nodiscard]] inline ljus::RowRange rows_of(const SliceNumber& slice, int height) {
+[[nodiscard]] inline ljus::PixelRegion rows_of(const SliceNumber& slice, int width,
+                                               int height) {
     const auto begin = [&](long long number) {
         return static_cast<int>(height * number / slice.count);
     };
-    return {begin(slice.number - 1), begin(slice.number)};
+    const int first = begin(slice.number - 1);
+    return {0, first, width, begin(slice.number) - first};
 }
 
 /// Rows of a picture, and everything that identifies the picture.
@@ -165,9 +168,9 @@ inline bool are_settings(const std::string& text) {
     file.position += letters;
     if (!std::isfinite(part.exposure) || !are_settings(part.settings))
         file.refuse("its settings are not those of a slice");
-    const ljus::RowRange rows = rows_of(part.slice, part.height);
+    const ljus::PixelRegion rows = rows_of(part.slice, part.width, part.height);
     const std::size_t pixels =
-        std::size_t(width) * static_cast<std::size_t>(rows.last - rows.first);
+        std::size_t(width) * static_cast<std::size_t>(rows.height);
     if (file.left() != 3 * channel * pixels)
         file.refuse("its " + std::to_string(file.bytes.size()) +
                     " bytes do not match its picture's size");

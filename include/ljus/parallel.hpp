@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <exception>
 
-#include "ljus/function_ref.hpp"
 #include "ljus/math/require.hpp"
+#include "ljus/ref.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>

@@ -34,12 +34,6 @@ ljus_break_it(NAME exr-primaries HEADER io/exr.hpp TEST exr
     TO   ";"
     CASES "exr: other primaries*")
 
-# A mesh that is read for its materials has the scale of its file.
-ljus_break_it(NAME exr-materials-scale HEADER io/exr.hpp TEST exr
-    FROM "return files.with_materials(path, scale, normals);"
-    TO   "return files.with_materials(path, 1.0, normals);"
-    CASES "exr: what reads meshes*")
-
 # The colours beside a luminance are lost.
 ljus_break_it(NAME exr-chroma HEADER io/exr.hpp TEST exr
     FROM "reader.require_no_chroma(found->part);"

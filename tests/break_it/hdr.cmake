@@ -35,7 +35,7 @@ ljus_break_it(NAME hdr-color-correction HEADER io/hdr.hpp TEST hdr
     CASES "hdr: the colour correction*")
 
 # Colours of other primaries are taken for those of sRGB.
-ljus_break_it(NAME hdr-primaries HEADER io/detail/srgb_primaries.hpp TEST hdr
+ljus_break_it(NAME hdr-primaries HEADER image/color.hpp TEST hdr
     FROM "std::abs(a - b) < 0.02"
     TO   "std::abs(a - b) < 2"
     CASES "hdr: the colour correction*")

@@ -71,12 +71,6 @@ ljus_break_it(NAME json-lamp-groups HEADER io/detail/json_objects.hpp TEST load_
     TO   "in.vector(\"emission\")"
     CASES "load_json: groups of lamps*")
 
-# The second of two names for one thing is ignored.
-ljus_break_it(NAME json-both-names HEADER io/detail/json_members.hpp TEST load_json
-    FROM "if (found && other)"
-    TO   "if (false)"
-    CASES "load_json: the names of C++*")
-
 # Words that share a few letters are proposed.
 ljus_break_it(NAME nearest-word-far HEADER io/nearest_word.hpp TEST nearest_word
     FROM "word.size() / 3"

@@ -23,7 +23,7 @@ ljus_break_it(NAME metrics-trimmed HEADER inspect/metrics.hpp TEST metrics
     CASES "metrics: *")
 
 # The last block, which is narrower, divided by what it lacks.
-ljus_break_it(NAME metrics-narrow HEADER inspect/metrics.hpp TEST metrics
+ljus_break_it(NAME metrics-narrow HEADER image/image.hpp TEST metrics
     FROM "std::min(size, image.width - x * size)"
     TO   "size"
     CASES "metrics: *")

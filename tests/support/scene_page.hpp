@@ -88,10 +88,7 @@ inline std::string member_rows(JsonMembers members) {
     std::string text = "| member | value | default | what it is |\n|---|---|---|---|\n";
     for (const JsonMember& row : members) {
         const auto preset = default_of(row);
-        const std::string names = row.also.empty()
-                                      ? join({"`", row.name, "`"})
-                                      : join({"`", row.name, "` or `", row.also, "`"});
-        text += join({"| ", names, " | ", value_text(row.value), " | ",
+        text += join({"| `", row.name, "` | ", value_text(row.value), " | ",
                       !row.optional      ? "needed"
                       : preset.is_null() ? "none"
                                          : preset.dump(),
@@ -111,9 +108,7 @@ inline std::string scene_tables() {
         std::map<std::string, std::string_view> first; // the first type with these rows
         for (const JsonTable& table : group.tables) {
             if (!table.name.empty())
-                page += join({"### `", table.name, "`",
-                              table.also.empty() ? "" : " or `", table.also,
-                              table.also.empty() ? "" : "`", "\n\n", table.text});
+                page += join({"### `", table.name, "`\n\n", table.text});
             const std::string rows = member_rows(table.members);
             const auto [same, is_new] = first.emplace(rows, table.name);
             if (!is_new) {

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "ljus/geometry/ray.hpp"
-#include "ljus/math/rounding.hpp"
 
 namespace ljus {
 

@@ -1,13 +1,15 @@
 #pragma once
 
 /// \file ljus/image/image.hpp
-/// \brief An image: a rectangle of linear colours.
+/// \brief An image: a rectangle of linear colours; and layers, which are named images.
 
+#include <algorithm>
 #include <cassert>
 #include <concepts>
 #include <cstddef>
 #include <cstdio>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -131,6 +133,54 @@ void require_radiance(std::string_view what, const ImageT<T>& image) {
     if (black)
         throw std::invalid_argument(detail::join(
             {what, " is black in every pixel; leave such a light out of the scene."}));
+}
+
+/// The image of the means of square blocks with sides of `size` pixels, at least 1. If
+/// the width or height is no multiple of the size, the blocks of the last column or row
+/// are narrower.
+/// \return An image of ceil(width/size) x ceil(height/size), in double.
+/// \throws std::invalid_argument  as check(image), or for a size below 1.
+template <std::floating_point T>
+[[nodiscard]] ImageT<double> block_means(const ImageT<T>& image, int size = 10) {
+    check(image);
+    require_at_least("the side of a block", size, 1);
+    const auto blocks = [size](int n) { return n / size + (n % size != 0 ? 1 : 0); };
+    auto means = make_image<double>(blocks(image.width), blocks(image.height));
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            pixel(means, x / size, y / size) += RgbT<double>(pixel(image, x, y));
+    for (int y = 0; y < means.height; ++y)
+        for (int x = 0; x < means.width; ++x) {
+            const int columns = std::min(size, image.width - x * size);
+            const int rows = std::min(size, image.height - y * size);
+            pixel(means, x, y) /= static_cast<double>(columns) * rows;
+        }
+    return means;
+}
+
+/// \}
+
+/// \defgroup layer Layers
+/// \brief A layer holds other values for the pixels of a picture: normals, depths, or
+/// the light of some paths. An EXR file can contain many layers; see \ref exr.
+/// \{
+
+/// One layer of a picture.
+template <std::floating_point T>
+struct LayerT {
+    std::string name{}; ///< The name, e.g. "albedo"; empty for the picture itself.
+    /// The names of three channels, or of one.
+    std::vector<std::string> channels{"R", "G", "B"};
+    ImageT<T> image{}; ///< The values. A single channel is repeated in all three.
+};
+using Layer = LayerT<float>; ///< LayerT in float.
+
+/// The full name in OpenEXR of the channel with this index: "albedo.R", or "Z" in a
+/// layer without a name.
+template <std::floating_point T>
+[[nodiscard]] std::string channel_name(const LayerT<T>& layer, std::size_t channel) {
+    const std::string& own = layer.channels[channel];
+    return layer.name.empty() ? own : layer.name + "." + own;
 }
 
 /// \}

@@ -121,29 +121,6 @@ template <std::floating_point T, std::floating_point U>
     return detail::mean(errors);
 }
 
-/// The image of the means of square blocks with sides of `size` pixels, at least 1. If
-/// the width or height is no multiple of the size, the blocks of the last column or row
-/// are narrower.
-/// \return An image of ceil(width/size) x ceil(height/size), in double.
-/// \throws std::invalid_argument  as check(image), or for a size below 1.
-template <std::floating_point T>
-[[nodiscard]] ImageT<double> block_means(const ImageT<T>& image, int size = 10) {
-    check(image);
-    require_at_least("the side of a block", size, 1);
-    const auto blocks = [size](int n) { return n / size + (n % size != 0 ? 1 : 0); };
-    auto means = make_image<double>(blocks(image.width), blocks(image.height));
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            pixel(means, x / size, y / size) += RgbT<double>(pixel(image, x, y));
-    for (int y = 0; y < means.height; ++y)
-        for (int x = 0; x < means.width; ++x) {
-            const int columns = std::min(size, image.width - x * size);
-            const int rows = std::min(size, image.height - y * size);
-            pixel(means, x, y) /= static_cast<double>(columns) * rows;
-        }
-    return means;
-}
-
 /// The rel_mse() of the block_means() of two pictures, which measures bias. In the
 /// squared error of a block of 10 x 10 pixels, noise that is independent between pixels
 /// is 100 times weaker, but an error that neighbouring pixels share is as large as

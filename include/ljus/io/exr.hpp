@@ -21,9 +21,9 @@
 
 #include <glm/packing.hpp>
 
-#include "ljus/image/layer.hpp"
+#include "ljus/image/color.hpp"
+#include "ljus/image/image.hpp"
 #include "ljus/io/detail/picture_size.hpp"
-#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -601,18 +601,10 @@ struct WithExr {
     Files files{}; ///< Reads mesh files, for example MeshFiles.
 
     /// Reads a mesh file.
-    [[nodiscard]] auto operator()(const std::string& path, double scale,
-                                  const std::string& normals) const {
-        return files(path, scale, normals);
-    }
-    /// Reads a mesh file with its materials, if `files` can read materials.
-    template <typename F = Files>
-    requires requires(const F& by, const std::string& text) {
-        by.with_materials(text, 1.0, text);
-    }
-    [[nodiscard]] auto with_materials(const std::string& path, double scale,
-                                      const std::string& normals) const {
-        return files.with_materials(path, scale, normals);
+    template <typename Settings>
+    [[nodiscard]] auto operator()(const std::string& path,
+                                  const Settings& settings) const {
+        return files(path, settings);
     }
     /// Reads a picture; see load_exr().
     template <std::floating_point T>

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/byte_reader.hpp"
-#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {

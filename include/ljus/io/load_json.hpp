@@ -53,11 +53,11 @@ inline constexpr JsonMember camera_members[]{
     needed("position", point_value, "the pinhole, or the middle of the lens",
            "[0, 1, 4]"),
     needed("look_at", point_value, "the point at the middle of the picture",
-           "[0, 1, 0]", "target"),
+           "[0, 1, 0]"),
     needed("up", point_value, "a direction, not along the view", "[0, 1, 0]"),
     needed("vfov_deg",
            {JsonKind::number, 1e-3, 179.99, "within [0.001, 179.99] degrees"},
-           "full vertical angle of view, degrees", "40", "vfov_degrees"),
+           "full vertical angle of view, degrees", "40"),
     optional("lens", {.kind = JsonKind::object, .of = "lens"},
              "blurs what is out of focus")};
 inline constexpr JsonMember lens_members[]{
@@ -178,8 +178,9 @@ LoadedSceneT<T> read_scene(const JsonField& top, LoadMeshes& load_meshes) {
 /// files are looked for in its folder.
 ///
 /// `load_meshes` reads mesh files, for example MeshFiles. It is called as
-/// load_meshes(path, scale, normals), once for each combination of these, and returns a
-/// vector of meshes. WithExr also reads EXR pictures.
+/// load_meshes(path, settings), once for each file and its MeshFileSettings, and
+/// returns a LoadedMeshT. MeshFileSettings::pictures is true if the materials of the
+/// file are used. WithExr also reads EXR pictures.
 /// \return The scene. Two triangles that form a parallelogram become one quad.
 /// \throws std::runtime_error  with one sentence that names the file, the path of the
 ///         field, its value and what would be right: "scene.json: objects[3].radius is

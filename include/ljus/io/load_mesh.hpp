@@ -40,34 +40,12 @@ struct MeshFilesT {
     std::string* report = nullptr; ///< Receives the problems of the files, one per
                                    ///< line; null: they are ignored.
 
-    /// Reads all meshes of a file. `scale` multiplies every coordinate; `normals` is
-    /// "file", "smooth" or "flat".
+    /// Reads a mesh file. Its lights are not used; the report says so.
     /// \throws std::runtime_error  as load_mesh().
-    [[nodiscard]] std::vector<MeshT<T>> operator()(const std::string& path,
-                                                   double scale,
-                                                   const std::string& normals) const {
-        std::vector<MeshT<T>> meshes;
-        for (auto& part : read(path, scale, normals, false).parts)
-            meshes.push_back(std::move(part.mesh));
-        return meshes;
-    }
-
-    /// Reads a file with its materials. Its lights are not used; the report says so.
-    /// \throws std::runtime_error  as load_mesh().
-    [[nodiscard]] LoadedMeshT<T> with_materials(const std::string& path, double scale,
-                                                const std::string& normals) const {
-        return read(path, scale, normals, true);
-    }
-
-private:
-    [[nodiscard]] LoadedMeshT<T> read(const std::string& path, double scale,
-                                      const std::string& normals, bool pictures) const {
-        const MeshNormals which = normals == "smooth" ? MeshNormals::smooth
-                                  : normals == "flat" ? MeshNormals::flat
-                                                      : MeshNormals::file;
-        LoadedMeshT<T> loaded = load_mesh<T>(
-            path, {.scale = scale, .normals = which, .pictures = pictures});
-        if (pictures &&
+    [[nodiscard]] LoadedMeshT<T> operator()(const std::string& path,
+                                            const MeshFileSettings& settings) const {
+        LoadedMeshT<T> loaded = load_mesh<T>(path, settings);
+        if (settings.pictures &&
             !(loaded.points.empty() && loaded.spots.empty() && loaded.suns.empty()))
             loaded.report.notes.push_back(
                 "its lights are not used; write them into the scene file.");

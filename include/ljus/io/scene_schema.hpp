@@ -33,16 +33,15 @@ struct JsonGroup {
 [[nodiscard]] inline std::vector<JsonGroup> scene_groups() {
     const auto one = [](std::string_view name, std::string_view heading,
                         std::string_view text, JsonMembers members) {
-        return JsonGroup{name, heading, text, {}, {{{}, {}, {}, members}}};
+        return JsonGroup{name, heading, text, {}, {{{}, {}, members}}};
     };
     static constexpr auto rows = material_rows<float>();
     JsonGroup materials{"material", "Materials",
                         "Each has a name of its own, by which objects call it.",
-                        JsonMembers(&material_type, 1)};
+                        JsonMembers(&type_row, 1)};
     std::apply(
         [&](const auto&... row) {
-            (materials.tables.push_back({row.name, row.also, row.text, row.members}),
-             ...);
+            (materials.tables.push_back({row.name, row.text, row.members}), ...);
         },
         rows);
     return {
@@ -156,23 +155,12 @@ struct JsonGroup {
         for (const JsonMember& row : members) {
             Json schema = value_schema(row.value);
             if (row.name == "type" && !table.name.empty())
-                schema = table.also.empty()
-                             ? Json{{"const", table.name}}
-                             : Json{{"enum", Json::array({table.name, table.also})}};
+                schema = {{"const", table.name}};
             schema["description"] = row.text;
             if (Json preset = default_of(row); !preset.is_null())
                 schema["default"] = std::move(preset);
-            properties[std::string(row.name)] = schema;
-            if (row.also.empty()) {
-                if (!row.optional) required.push_back(row.name);
-                continue;
-            }
-            properties[std::string(row.also)] = schema;
-            if (row.optional)
-                all.push_back({{"not", {{"required", {row.name, row.also}}}}});
-            else
-                all.push_back(
-                    {{"oneOf", Json::array({having(row.name), having(row.also)})}});
+            properties[std::string(row.name)] = std::move(schema);
+            if (!row.optional) required.push_back(row.name);
         }
     if (!table.one_of.empty()) {
         Json choices = Json::array();

@@ -15,9 +15,9 @@ namespace ljus {
 /// by the colour of the texture at the point. The base may be textured itself.
 /// \{
 
-/// A material whose colour is multiplied by that of a texture. Holes or a NormalMap in
-/// place of the texture leave the colour unchanged. sample() and evaluate() of this
-/// type ignore the texture; renderers call those of material_at().
+/// A material whose colour is multiplied by that of a texture. Holes, a NormalMap or a
+/// Priority in place of the texture leave the colour unchanged. sample() and evaluate()
+/// of this type ignore the texture; renderers call those of material_at().
 template <Material Base, typename Texture>
 struct Textured {
     using Scalar = typename Base::Scalar;          ///< The precision of its numbers.

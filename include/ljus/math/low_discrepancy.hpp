@@ -168,21 +168,6 @@ template <std::floating_point T = float>
         return static_cast<T>(bits) * T(0x1p-32);
 }
 
-/// The next point of the unit square [0, 1)^2; uses two dimensions.
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec2T<T> next_2d(SobolStream& stream) noexcept {
-    const T x = next_1d<T>(stream);
-    return {x, next_1d<T>(stream)};
-}
-
-/// The next point of the unit cube [0, 1)^3; uses three dimensions.
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec3T<T> next_3d(SobolStream& stream) noexcept {
-    const T x = next_1d<T>(stream);
-    const T y = next_1d<T>(stream);
-    return {x, y, next_1d<T>(stream)};
-}
-
 /// \}
 
 } // namespace ljus

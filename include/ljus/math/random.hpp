@@ -76,16 +76,16 @@ template <std::floating_point T = float>
         return static_cast<T>(bits >> 11) * T(0x1p-53);
 }
 
-/// The next point of the unit square [0, 1)^2; uses two dimensions.
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec2T<T> next_2d(RandomStream& stream) noexcept {
+/// The next point of the unit square [0, 1)^2, of any stream: two numbers.
+template <std::floating_point T = float, typename Stream>
+[[nodiscard]] constexpr Vec2T<T> next_2d(Stream& stream) noexcept {
     const T x = next_1d<T>(stream);
     return {x, next_1d<T>(stream)};
 }
 
-/// The next point of the unit cube [0, 1)^3; uses three dimensions.
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec3T<T> next_3d(RandomStream& stream) noexcept {
+/// The next point of the unit cube [0, 1)^3, of any stream: three numbers.
+template <std::floating_point T = float, typename Stream>
+[[nodiscard]] constexpr Vec3T<T> next_3d(Stream& stream) noexcept {
     const T x = next_1d<T>(stream);
     const T y = next_1d<T>(stream);
     return {x, y, next_1d<T>(stream)};

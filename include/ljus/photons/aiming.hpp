@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "ljus/function_ref.hpp"
 #include "ljus/lights/point_light.hpp"
 #include "ljus/photons/photon_path.hpp"
+#include "ljus/ref.hpp"
 
 namespace ljus {
 

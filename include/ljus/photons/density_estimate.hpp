@@ -6,10 +6,10 @@
 #include <numbers>
 #include <span>
 
-#include "ljus/function_ref.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/path/next_vertex.hpp"
 #include "ljus/photons/irradiance_estimate.hpp"
+#include "ljus/ref.hpp"
 
 namespace ljus {
 

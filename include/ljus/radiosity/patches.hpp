@@ -87,18 +87,6 @@ double extent_along(const S& shape, const glm::dvec3& normal) {
     }
 }
 
-// Calls f(shape, id) for every shape of a scene.
-template <AnyWorld W, typename F>
-void each_shape(const W& world, F f) {
-    std::uint32_t type = 0;
-    const auto all = [&](const auto& shapes) {
-        for (std::uint32_t i = 0; i < shapes.size(); ++i)
-            f(shapes[i], ObjectId{type, i});
-        ++type;
-    };
-    each_array(world.shapes(), all);
-}
-
 // Whether a side of a shape needs patches. A side of a flat shape does if anything in
 // the scene may lie in front of it. A ball has patches outside, or inside if the object
 // is inside out.
@@ -113,8 +101,10 @@ bool faces_anything(const W& world, const G& shape, bool inward, bool inside_out
                                 glm::length(glm::dvec3(glm::abs(world.box().low) +
                                                        glm::abs(world.box().high)));
         bool any = false;
-        each_shape(world, [&](const auto& other, ObjectId) {
-            any = any || extent_along(other, normal) > plane + rounding;
+        world.each_object([&](ObjectId id, const auto&) {
+            any = any || world.visit_shape(id, [&](const auto& other) {
+                return extent_along(other, normal) > plane + rounding;
+            });
         });
         return any;
     } else {
@@ -184,8 +174,7 @@ template <AnyWorld W>
     Patches all;
     all.grid_of.resize(world.objects().size());
     long long unknown = 0, shiny = 0, lamps = 0;
-    const auto cut = [&]<typename G>(const G& shape, ObjectId id) {
-        const auto& object = world.object(id);
+    const auto cut = [&]<typename G>(const G& shape, ObjectId id, const auto& object) {
         std::array<bool, 2> open{};
         for (const bool back : {false, true})
             open[back] = detail::faces_anything(world, shape, back != object.inside_out,
@@ -207,7 +196,9 @@ template <AnyWorld W>
         });
         all.grid_of[id.type].push_back(sides);
     };
-    detail::each_shape(world, cut);
+    world.each_object([&](ObjectId id, const auto& object) {
+        world.visit_shape(id, [&](const auto& shape) { cut(shape, id, object); });
+    });
     detail::say(all, shiny, " object is not Lambertian and reflects no light",
                 " objects are not Lambertian and reflect no light");
     detail::say(all, unknown, " object is of a shape that is not divided into patches",

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "ljus/image/layer.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/path/path_log.hpp"
 #include "ljus/render/first_hit.hpp"
@@ -130,14 +129,6 @@ struct MiddleStream {};
 template <std::floating_point T = float>
 [[nodiscard]] constexpr T next_1d(MiddleStream&) noexcept {
     return T(0.5);
-}
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec2T<T> next_2d(MiddleStream&) noexcept {
-    return Vec2T<T>{T(0.5)};
-}
-template <std::floating_point T = float>
-[[nodiscard]] constexpr Vec3T<T> next_3d(MiddleStream&) noexcept {
-    return Vec3T<T>{T(0.5)};
 }
 constexpr void start_bounce(MiddleStream&, std::uint64_t) noexcept {}
 

@@ -348,21 +348,6 @@ public:
                     world(), gather_lookup(*this), camera, picture, settings_.gather);
     }
 
-    /// Changes how the maps are queried; the photons stay the same.
-    /// \param caustics  As PhotonMappingSettings::caustics_estimate.
-    /// \param general   As PhotonMappingSettings::general_estimate.
-    /// \throws std::invalid_argument  if a radius, a thickness or a number of nearest
-    ///         photons is out of range.
-    void set_estimates(const DensityEstimateSettings& caustics,
-                       const DensityEstimateSettings& general) {
-        PhotonMappingSettings changed = settings_;
-        changed.caustics_estimate = caustics;
-        changed.general_estimate = general;
-        check(changed);
-        settings_ = std::move(changed);
-        choose_radii();
-    }
-
     /// Takes caustics photons that were traced by other machines or read from a file.
     /// \param caustics  Photons L S+ D of this world. If the settings give a radius of
     ///                  0, the mapper chooses one from these photons.

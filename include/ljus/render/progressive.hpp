@@ -3,7 +3,6 @@
 /// \file ljus/render/progressive.hpp
 /// \brief Photon mapping that converges: many passes, each with a smaller radius.
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -52,21 +51,6 @@ template <typename RenderPass>
 // [plain]
 
 namespace detail {
-
-/// The means of blocks of pixels; blocks at the right and bottom edge may be smaller.
-template <std::floating_point T>
-[[nodiscard]] ImageT<double> means_of_blocks(const ImageT<T>& image, int side) {
-    auto means = make_image<double>(int(block_count(image.width, side)),
-                                    int(block_count(image.height, side)));
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const int columns = std::min(side, image.width - x / side * side);
-            const int rows = std::min(side, image.height - y / side * side);
-            pixel(means, x / side, y / side) +=
-                RgbT<double>(pixel(image, x, y)) / (double(columns) * double(rows));
-        }
-    return means;
-}
 
 /// Adds a picture to the sums of squared deviations from the mean, by Welford's method.
 /// \param sum      The sum of the n earlier pictures.
@@ -145,7 +129,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
     require(state.alpha > 0 && state.alpha <= 1, "alpha", state.alpha, "in (0, 1]");
     require_at_least("the side of a block", state.block_side, 1);
     for (const RgbT<T>& color : image.pixels) require_finite("a pass's pixel", color);
-    const auto blocks = detail::means_of_blocks(image, state.block_side);
+    const auto blocks = block_means(image, state.block_side);
     if (state.passes == 0) {
         state.first_pass = detail::hash_of(image);
         state.sum = state.squares = make_image<double>(image.width, image.height);
@@ -155,7 +139,7 @@ void add_pass(ProgressiveState& state, const ImageT<T>& image) {
     const auto n = static_cast<double>(state.passes);
     detail::add_squares(state.squares, image, state.sum, n);
     detail::add_squares(state.block_squares, blocks,
-                        detail::means_of_blocks(state.sum, state.block_side), n);
+                        block_means(state.sum, state.block_side), n);
     for (std::size_t p = 0; p < image.pixels.size(); ++p)
         state.sum.pixels[p] += RgbT<double>(image.pixels[p]);
     ++state.passes;

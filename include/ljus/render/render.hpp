@@ -161,8 +161,9 @@ struct PixelRegion {
     int height = 1; ///< Height in pixels, at least 1.
 };
 
-/// Renders a part of a picture by several threads. Its pixels are those of the picture
-/// that render() returns, byte for byte.
+/// Renders a part of a picture by several threads, for example some rows on one of
+/// several machines. Its pixels are those of the picture that render() returns, byte
+/// for byte.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
 /// \param picture   Size of the whole, rays, seed, threads.
@@ -229,34 +230,6 @@ render_region(const R& renderer, const C& camera, const RenderSettings& picture,
     return result;
 }
 
-/// A range of rows of a picture, counted from the top: first <= y < last.
-struct RowRange {
-    int first = 0; ///< The first row.
-    int last = 0;  ///< One past the last row.
-};
-
-/// Renders some rows of a picture as render_region() does, for example on one of
-/// several machines.
-/// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
-/// \param camera    Any camera: see CameraLike.
-/// \param picture   Size of the whole, rays, seed, threads.
-/// \param rows      At least one row.
-/// \return A picture of those rows alone.
-/// \throws std::invalid_argument  as render_region().
-template <typename R, CameraLike C>
-requires Renderer<R, typename C::Scalar>
-[[nodiscard, gnu::cold]] RenderedT<typename C::Scalar>
-render_rows(const R& renderer, const C& camera, const RenderSettings& picture,
-            const RowRange& rows) {
-    require_image_size(picture.width, picture.height);
-    require(rows.first >= 0 && rows.first < rows.last, "the first row",
-            static_cast<long long>(rows.first), "at least 0 and below the last");
-    require(rows.last <= picture.height, "the last row",
-            static_cast<long long>(rows.last), "at most the picture's height");
-    return render_region(renderer, camera, picture,
-                         {0, rows.first, picture.width, rows.last - rows.first});
-}
-
 /// Renders a picture by several threads, in strips of 16 pixels.
 /// \param renderer  A PathTracer, a PhotonMapper, or any other Renderer.
 /// \param camera    Any camera: see CameraLike.
@@ -278,7 +251,8 @@ template <typename R, typename C>
             "This is no Renderer, such as PathTracer(world): it has a type "
             "Stream and radiance(renderer, ray, context), which returns an Rgb.");
         if constexpr (Renderer<R, T>)
-            return render_rows(renderer, camera, picture, {0, picture.height});
+            return render_region(renderer, camera, picture,
+                                 {0, 0, picture.width, picture.height});
         else
             return RenderedT<T>{};
     } else {

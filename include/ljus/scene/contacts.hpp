@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "ljus/accel/detail/bvh_build.hpp"
-#include "ljus/function_ref.hpp"
 #include "ljus/geometry/moving.hpp"
 #include "ljus/geometry/touching.hpp"
+#include "ljus/ref.hpp"
 #include "ljus/scene/scene.hpp"
 
 namespace ljus {

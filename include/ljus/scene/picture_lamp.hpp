@@ -23,12 +23,13 @@ namespace ljus {
 ///     scene.add(quad, window, Rgb{1});
 template <std::floating_point T>
 struct PictureLampT {
-    using Scalar = T;                     ///< The precision of the lamp's numbers.
-    static constexpr bool uses_uv = true; ///< The picture is looked up by uv.
+    using Scalar = T;                              ///< The precision of its numbers.
+    static constexpr bool scatters_as_base = true; ///< Scattering is that of the base.
+    static constexpr bool uses_uv = true;          ///< The picture is looked up by uv.
     /// The factors of the radiance, at least 0 and not all black. The picture may have
     /// any width and height.
     ImageT<T> picture{.width = 1, .height = 1, .pixels = {RgbT<T>(T(1))}};
-    RgbT<T> albedo{T(0)}; ///< Fraction of the incident light that is reflected.
+    LambertianT<T> base{RgbT<T>{T(0)}}; ///< How incident light is reflected; black.
 };
 using PictureLamp = PictureLampT<float>; ///< PictureLampT in float.
 
@@ -38,52 +39,19 @@ template <std::floating_point T>
     return lamp.picture;
 }
 
-/// The material that reflects light: a matt surface, the same at every point.
+/// The material that reflects light: the matt surface, the same at every point.
 template <std::floating_point T>
 [[nodiscard]] LambertianT<T> at_point(const PictureLampT<T>& lamp, const Vec3T<T>&,
                                       const Vec2T<T>&) noexcept {
-    return {lamp.albedo};
+    return lamp.base;
 }
-
-/// \name Functions of the matt surface
-/// \{
-
-/// The lobes, the same as for a LambertianT.
-template <std::floating_point T>
-[[nodiscard]] constexpr Lobes lobes(const PictureLampT<T>&) noexcept {
-    return Lobes::diffuse;
-}
-
-/// The BRDF, the same as for a LambertianT, in 1/sr and without the cosine.
-template <std::floating_point T>
-[[nodiscard]] RgbT<T> evaluate(const PictureLampT<T>& lamp, const Vec3T<T>& wo,
-                               const Vec3T<T>& wi) noexcept {
-    return evaluate(LambertianT<T>{lamp.albedo}, wo, wi);
-}
-
-/// The density of sample(), the same as for a LambertianT, per steradian.
-template <std::floating_point T>
-[[nodiscard]] T pdf(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& wi,
-                    Lobes which = Lobes::all) noexcept {
-    return pdf(LambertianT<T>{lamp.albedo}, wo, wi, which);
-}
-
-/// Samples a direction, in the same way as for a LambertianT.
-template <std::floating_point T>
-[[nodiscard]] std::optional<BsdfSampleT<T>>
-sample(const PictureLampT<T>& lamp, const Vec3T<T>& wo, const Vec3T<T>& u,
-       Transport transport, Lobes which = Lobes::all) noexcept {
-    return sample(LambertianT<T>{lamp.albedo}, wo, u, transport, which);
-}
-
-/// \}
 
 /// Refuses a lamp with an invalid picture or albedo.
 /// \throws std::invalid_argument  if the albedo is not within [0, 1], if the picture is
 ///         empty or black in every pixel, or if a pixel is negative or not finite.
 template <std::floating_point T>
 void check(const PictureLampT<T>& lamp) {
-    require_unit("picture lamp.albedo", lamp.albedo);
+    require_unit("picture lamp.albedo", lamp.base.albedo);
     require_radiance("picture lamp.picture", lamp.picture);
 }
 

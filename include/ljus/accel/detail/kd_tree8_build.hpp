@@ -15,10 +15,10 @@
 #include "ljus/accel/detail/lane_select.hpp"
 #include "ljus/accel/detail/stored_array.hpp"
 #include "ljus/accel/neighbor.hpp"
-#include "ljus/function_ref.hpp"
 #include "ljus/math/lanes.hpp"
 #include "ljus/math/require.hpp"
 #include "ljus/parallel.hpp"
+#include "ljus/ref.hpp"
 
 namespace ljus::detail {
 

@@ -18,11 +18,7 @@
 
 namespace ljus::detail {
 
-inline constexpr std::string_view light_words[]{"point", "spot", "sun", "environment",
-                                                "goniometric"};
-inline constexpr JsonMember light_shared[]{
-    needed("type", {.kind = JsonKind::word, .words = light_words}, "which light", {}),
-    lamp_group_row};
+inline constexpr JsonMember light_shared[]{type_row, lamp_group_row};
 
 inline constexpr JsonMember position_row =
     needed("position", point_value, "where it is", "[0, 2, 1]");
@@ -35,9 +31,9 @@ inline constexpr JsonMember point_members[]{position_row, intensity_row};
 inline constexpr JsonMember spot_members[]{
     position_row, shines_row, intensity_row,
     needed("inner_deg", {JsonKind::number, 0, 180, "within [0, outer_deg]"},
-           "half the angle of the cone of full light, degrees", "10", "inner_degrees"),
+           "half the angle of the cone of full light, degrees", "10"),
     needed("outer_deg", {JsonKind::number, 1e-3, 180, "within [0.001, 180] degrees"},
-           "half the angle beyond which it is dark, degrees", "30", "outer_degrees")};
+           "half the angle beyond which it is dark, degrees", "30")};
 inline constexpr JsonMember sun_members[]{
     shines_row,
     needed("irradiance", light_value, "W/m^2 on a surface across", "[3, 3, 3]")};
@@ -59,8 +55,7 @@ inline constexpr JsonMember environment_members[]{
     optional("file", text_value,
              "a picture, .hdr, .pfm or .exr, beside the scene file"),
     preset("strength", factor_value, 1, "factor of the radiance"),
-    preset("rotation_deg", angle_value, 0, "about the y axis, degrees", {},
-           "rotation_degrees")};
+    preset("rotation_deg", angle_value, 0, "about the y axis, degrees")};
 inline constexpr JsonMember gradient_members[]{
     needed("horizon", light_value, "W/(m^2 sr)", "[1, 1, 1]"),
     needed("zenith", light_value, "W/(m^2 sr)", "[0.2, 0.4, 1]"),
@@ -71,17 +66,13 @@ inline constexpr JsonMember gradient_members[]{
 inline constexpr std::size_t max_file_lamps = 1024, max_intensities = 1 << 22;
 
 inline constexpr JsonTable light_tables[]{
-    {"point", {}, "a point", point_members},
-    {"spot", {}, "a point that shines into a cone", spot_members},
-    {"sun", {}, "parallel light", sun_members},
+    {"point", "a point", point_members},
+    {"spot", "a point that shines into a cone", spot_members},
+    {"sun", "parallel light", sun_members},
     {"environment",
-     {},
      "light from all around, by one of radiance, gradient and file; one in a file",
-     environment_members,
-     sky_words},
-    {"goniometric",
-     {},
-     "a point whose intensity a maker has measured: ljus::load_ies()",
+     environment_members, sky_words},
+    {"goniometric", "a point whose intensity a maker has measured: ljus::load_ies()",
      goniometric_members}};
 
 // Reads the picture of a sky, which exactly one of three fields describes. `files` is
@@ -188,9 +179,8 @@ void read_light(const JsonField& field, const LampGroups& groups, Scene& scene,
 
 inline constexpr JsonValue coefficient_value{JsonKind::vector, 0, 1e12,
                                              "within [0, 1e12]"};
-inline constexpr std::string_view fog_words[]{"sphere", "box"};
 inline constexpr JsonMember fog_shared[]{
-    needed("type", {.kind = JsonKind::word, .words = fog_words}, "what it fills", {}),
+    type_row,
     needed("scattering", coefficient_value, "per unit of length", "[0.1, 0.1, 0.1]"),
     preset("absorption", coefficient_value, 0, "per unit of length"),
     preset("g", {JsonKind::number, -0.99, 0.99, "within [-0.99, 0.99]"}, 0,
@@ -201,8 +191,8 @@ inline constexpr JsonMember fog_sphere_members[]{
 inline constexpr JsonMember fog_box_members[]{
     needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
     needed("high", point_value, "greatest x, y and z", "[1, 2, 1]")};
-inline constexpr JsonTable fog_tables[]{{"sphere", {}, "a ball", fog_sphere_members},
-                                        {"box", {}, "a box", fog_box_members}};
+inline constexpr JsonTable fog_tables[]{{"sphere", "a ball", fog_sphere_members},
+                                        {"box", "a box", fog_box_members}};
 
 template <typename Scene, std::floating_point T = typename Scene::Scalar>
 void read_fog(const JsonField& field, Scene& scene) {

@@ -140,8 +140,6 @@ MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
 }
 
 // The members of the materials.
-inline constexpr JsonMember material_type{
-    "type", {}, text_value, "one of the materials below", {}};
 inline constexpr JsonMember albedo_row =
     needed("albedo", color_value, "the part of the light that is reflected",
            "[0.8, 0.6, 0.4]");
@@ -163,7 +161,7 @@ inline constexpr std::string_view medium_words[]{"bk7", "sf10", "sf66", "water",
 inline constexpr JsonValue ior_value{JsonKind::number, 1e-3, 1e3,
                                      "within [0.001, 1000]"};
 inline constexpr JsonMember ior_row =
-    needed("ior", ior_value, "index of refraction", "1.5", "index");
+    needed("ior", ior_value, "index of refraction", "1.5");
 inline constexpr JsonMember absorption_row = preset(
     "absorption", {JsonKind::vector, 0, 1e12, "within [0, 1e12]"}, 0, "per scene unit");
 inline constexpr JsonMember priority_row =
@@ -182,20 +180,18 @@ constexpr JsonMember fields_row(std::string_view name, std::string_view text) {
     return preset(name, {JsonKind::whole, 2, 1e6, {}}, 2, text);
 }
 
-// A row of the table: the name of a material, its name in C++ if that differs, a
-// description, its members other than `type`, and the function that reads it.
+// A row of the table: the name of a material, a description, its members other than
+// `type`, and the function that reads it.
 template <std::size_t N, typename Read>
 struct MaterialRow {
-    std::string_view name, also;
-    std::string_view text;
+    std::string_view name, text;
     std::array<JsonMember, N> members;
     Read read;
 };
 template <std::size_t N, typename Read>
-constexpr MaterialRow<N, Read> row(std::string_view name, std::string_view also,
-                                   std::string_view text,
+constexpr MaterialRow<N, Read> row(std::string_view name, std::string_view text,
                                    const JsonMember (&members)[N], Read read) {
-    return {name, also, text, std::to_array(members), read};
+    return {name, text, std::to_array(members), read};
 }
 template <std::floating_point T, typename Texture>
 Textured<LambertianT<T>, Texture> white(Texture texture) {
@@ -209,25 +205,25 @@ constexpr auto material_rows() {
     using In = const MaterialFields<T>&;
     constexpr auto& map = map_members;
     return std::tuple{
-        row("lambertian", "", "matt", {albedo_row},
+        row("lambertian", "matt", {albedo_row},
             [](In in) { return LambertianT<T>{in.color("albedo")}; }),
-        row("oren-nayar", "", "rough and matt, like clay", {albedo_row, sigma_row},
+        row("oren-nayar", "rough and matt, like clay", {albedo_row, sigma_row},
             [](In in) {
                 return OrenNayarT<T>{in.color("albedo"), in.radians("sigma_deg")};
             }),
-        row("mirror", "", "a smooth mirror", {reflectance_row},
+        row("mirror", "a smooth mirror", {reflectance_row},
             [](In in) { return MirrorT<T>{in.color("reflectance")}; }),
-        row("dielectric", "glass", "smooth glass or water",
+        row("dielectric", "smooth glass or water",
             {ior_row, absorption_row, priority_row},
             [](In in) {
                 return Nested<GlassT<T>>{{in.value("ior"), in.color("absorption")},
-                                         in.priority()};
+                                         {in.priority()}};
             }),
-        row("mixture", "", "the report's sliders",
+        row("mixture", "the report's sliders",
             {needed("color", color_value, "of the body", "[0.8, 0.6, 0.4]"),
              slider_row("reflectivity", "a mirror"),
              slider_row("transparency", "a body of glass"),
-             preset("ior", ior_value, 1.5, "index of refraction", {}, "index"),
+             preset("ior", ior_value, 1.5, "index of refraction"),
              slider_row("specularity", "a smooth coat"),
              preset("emissivity",
                     {JsonKind::number, 0, max_radiance, "within [0, 1e12]"}, 0,
@@ -236,47 +232,46 @@ constexpr auto material_rows() {
                     "standard deviation of the slope, degrees"),
              absorption_row, priority_row},
             [](In in) {
-                return Nested<MixtureT<T>>{read_mixture(in), in.priority()};
+                return Nested<MixtureT<T>>{read_mixture(in), {in.priority()}};
             }),
-        row("oren-nayar-full", "", "with interreflection between facets",
+        row("oren-nayar-full", "with interreflection between facets",
             {albedo_row, sigma_row}, [](In in) { return in.rough(RoughModel::full); }),
-        row("oren-nayar-printed", "", "the formula of the report's program",
+        row("oren-nayar-printed", "the formula of the report's program",
             {albedo_row, sigma_row},
             [](In in) { return in.rough(RoughModel::as_printed); }),
-        row("fujii", "", "Fujii's first improvement", {albedo_row, sigma_row},
+        row("fujii", "Fujii's first improvement", {albedo_row, sigma_row},
             [](In in) { return in.rough(RoughModel::fujii); }),
-        row("fon", "", "Fujii's second improvement", {albedo_row, unit_roughness_row},
+        row("fon", "Fujii's second improvement", {albedo_row, unit_roughness_row},
             [](In in) {
                 return RoughDiffuseT<T>{in.color("albedo"), in.value("roughness"),
                                         RoughModel::fon};
             }),
-        row("eon", "", "rough and matt, keeps all energy",
-            {albedo_row, unit_roughness_row},
+        row("eon", "rough and matt, keeps all energy", {albedo_row, unit_roughness_row},
             [](In in) {
                 return EonT<T>{in.color("albedo"), in.value("roughness")};
             }),
-        row("metal", "", "a smooth metal", {metal_row},
+        row("metal", "a smooth metal", {metal_row},
             [](In in) { return MetalT<T>{in.metal()}; }),
-        row("rough-metal", "", "a rough metal", {metal_row, roughness_row},
+        row("rough-metal", "a rough metal", {metal_row, roughness_row},
             [](In in) { return in.rough_metal(); }),
-        row("full-rough-metal", "", "with multiple scattering: ljus::CompensatedGlossy",
+        row("full-rough-metal", "with multiple scattering: ljus::CompensatedGlossy",
             {metal_row, roughness_row},
             [](In in) { return in.full(in.rough_metal()); }),
-        row("glossy", "", "a rough mirror", {reflectance_row, roughness_row},
+        row("glossy", "a rough mirror", {reflectance_row, roughness_row},
             [](In in) { return in.gloss(); }),
-        row("full-glossy", "", "with multiple scattering: ljus::CompensatedGlossy",
+        row("full-glossy", "with multiple scattering: ljus::CompensatedGlossy",
             {reflectance_row, roughness_row},
             [](In in) { return in.full(in.gloss()); }),
-        row("rough-glass", "", "frosted glass",
+        row("rough-glass", "frosted glass",
             {ior_row, roughness_row, absorption_row, priority_row},
             [](In in) {
                 return Nested<RoughGlassT<T>>{
                     {in.value("ior"), in.value("roughness"), in.color("absorption")},
-                    in.priority()};
+                    {in.priority()}};
             }),
-        row("dispersive-glass", "", "glass that makes a spectrum, by two numbers",
+        row("dispersive-glass", "glass that makes a spectrum, by two numbers",
             {needed("ior", {JsonKind::number, 1, 100, "within [1, 100]"},
-                    "index of refraction for yellow light", "1.62", "index"),
+                    "index of refraction for yellow light", "1.62"),
              needed("abbe", {JsonKind::number, 1, 1e6, "within [1, 1e6]"},
                     "Abbe's number: 64 for crown glass, 21 for heavy flint", "36"),
              absorption_row, priority_row},
@@ -284,9 +279,9 @@ constexpr auto material_rows() {
                 return Nested<DispersiveGlassT<T, CauchyT<T>>>{
                     {cauchy_from_abbe(in.value("ior"), in.value("abbe")),
                      in.color("absorption")},
-                    in.priority()};
+                    {in.priority()}};
             }),
-        row("measured-glass", "", "glass, water or diamond with a measured spectrum",
+        row("measured-glass", "glass, water or diamond with a measured spectrum",
             {needed("medium", {.kind = JsonKind::word, .words = medium_words},
                     "crown glass N-BK7, flint SF10, heavy flint N-SF66, water or "
                     "diamond",
@@ -294,33 +289,33 @@ constexpr auto material_rows() {
              absorption_row, priority_row},
             [](In in) {
                 return Nested<DispersiveGlassT<T>>{
-                    {in.medium(), in.color("absorption")}, in.priority()};
+                    {in.medium(), in.color("absorption")}, {in.priority()}};
             }),
-        row("thin-glass", "", "a pane",
+        row("thin-glass", "a pane",
             {ior_row, needed("tint", color_value, "of what passes", "[0.9, 1, 0.9]")},
             [](In in) {
                 return ThinGlassT<T>{in.value("ior"), in.color("tint")};
             }),
-        row("soap-film", "", "a thin film; if it drains, it has scale, level and up",
+        row("soap-film", "a thin film; if it drains, it has scale, level and up",
             {needed("ior", {JsonKind::number, 1, 1e3, "within [1, 1000]"},
-                    "index of refraction", "1.33", "index"),
+                    "index of refraction", "1.33"),
              needed("thickness_nm", {JsonKind::number, 0, 1e6, "within [0, 1e6] nm"},
-                    "at the level, nanometres", "400", "thickness"),
+                    "at the level, nanometres", "400"),
              optional("scale", {JsonKind::number, 0, max_length, "within [0, 1e9]"},
                       "the height over which the thickness falls to 1/e; 0: even"),
              optional("level", point_value, "a point at the height of thickness_nm"),
              optional("up", direction_value, "away from the ground")},
             [](In in) { return read_film(in); }),
-        row("checker", "", "matt, with two by two fields",
+        row("checker", "matt, with two by two fields",
             {even_row, odd_row, map[0], map[1], map[2], map[3], map[4], map[5], map[6],
              map[7], fields_row("columns", "fields along u, an even number"),
              fields_row("rows", "fields along v, an even number")},
             [](In in) { return white<T>(read_checker<T>(in.in)); }),
-        row("picture", "", "matt, with the colours of a picture",
+        row("picture", "matt, with the colours of a picture",
             {picture_row, map[0], map[1], map[2], map[3], map[4], map[5], map[6],
              map[7], wrap_row, filter_row},
             [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
-        row("mapped", "", "matt, with pictures in the shape's own coordinates",
+        row("mapped", "matt, with pictures in the shape's own coordinates",
             {needed("file", text_value, "its colours: PNG, JPEG or BMP",
                     "\"tile.png\""),
              optional(
@@ -332,14 +327,14 @@ constexpr auto material_rows() {
                       "0.5"),
              map[5], map[6], map[7], wrap_row, filter_row},
             [](In in) { return read_mapped(in.in, in.shared.pictures); }),
-        row("picture-lamp", "",
+        row("picture-lamp",
             "of a quad or a disc, whose emission it multiplies: ljus::PictureLamp",
             {picture_row,
              preset("albedo", color_value, 0, "of the light that falls on it")},
             [](In in) {
                 return PictureLampT<T>{.picture =
                                            take_picture(in.in, in.shared.pictures),
-                                       .albedo = in.color("albedo")};
+                                       .base{in.color("albedo")}};
             })};
 }
 
@@ -364,9 +359,8 @@ MaterialId read_material(const JsonField& field, SharedByMaterialsT<T>& shared,
     const JsonField type = member(field, "type");
     MaterialId id{};
     const auto read = [&](const auto& row) {
-        if (text(type) != row.name && (row.also.empty() || text(type) != row.also))
-            return false;
-        const JsonMembersOf in(field, row.members, JsonMembers(&material_type, 1));
+        if (text(type) != row.name) return false;
+        const JsonMembersOf in(field, row.members, JsonMembers(&type_row, 1));
         id = made_of(field, [&] { return scene.add(row.read({in, shared})); });
         return true;
     };

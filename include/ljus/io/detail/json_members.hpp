@@ -49,7 +49,6 @@ struct JsonValue {
 // its words.
 struct JsonMember {
     std::string_view name;
-    std::string_view also; // its name in C++ if that differs; also read
     JsonValue value;
     std::string_view text;    // meaning and unit
     std::string_view example; // JSON; empty: left out of the example
@@ -60,18 +59,17 @@ using JsonMembers = std::span<const JsonMember>;
 
 // Makes a required member.
 constexpr JsonMember needed(std::string_view name, const JsonValue& value,
-                            std::string_view text, std::string_view example,
-                            std::string_view also = {}) {
-    return {name, also, value, text, example};
+                            std::string_view text, std::string_view example) {
+    return {name, value, text, example};
 }
 constexpr JsonMember optional(std::string_view name, const JsonValue& value,
                               std::string_view text, std::string_view example = {}) {
-    return {name, {}, value, text, example, true};
+    return {name, value, text, example, true};
 }
 constexpr JsonMember preset(std::string_view name, const JsonValue& value,
                             double number, std::string_view text,
-                            std::string_view example = {}, std::string_view also = {}) {
-    return {name, also, value, text, example, true, number};
+                            std::string_view example = {}) {
+    return {name, value, text, example, true, number};
 }
 
 inline constexpr double max_length = 1e9;
@@ -174,8 +172,7 @@ public:
                 refuse_name({*part, field.file, field.root}, part.key(), names());
         for (const JsonMembers& table : tables_)
             for (const JsonMember& row : table) {
-                const auto found = find(row);
-                if (found)
+                if (const auto found = find(field_, row.name))
                     check_value(*found, row.value);
                 else if (!row.optional)
                     (void)member(field_, row.name); // throws: the member is missing
@@ -184,23 +181,22 @@ public:
 
     [[nodiscard]] const JsonField& field() const noexcept { return field_; }
     [[nodiscard]] bool has(std::string_view name) const {
-        return find(*row_of(name)).has_value();
+        return find(field_, name).has_value();
     }
     // A member; throws if it is missing.
     [[nodiscard]] JsonField operator[](std::string_view name) const {
-        if (const auto found = find(*row_of(name))) return *found;
         return member(field_, name);
     }
     // A member's number, or its default.
     [[nodiscard]] double number(std::string_view name) const {
         const JsonMember& row = *row_of(name);
-        const auto found = find(row);
+        const auto found = find(field_, name);
         return found ? found->value.get<double>() : row.preset;
     }
     // The three numbers of a member; a single number or default is used three times.
     [[nodiscard]] glm::dvec3 vector(std::string_view name) const {
         const JsonMember& row = *row_of(name);
-        const auto found = find(row);
+        const auto found = find(field_, name);
         if (!found) return glm::dvec3(row.preset);
         const nlohmann::json& value = found->value;
         if (value.is_number()) return glm::dvec3(value.get<double>());
@@ -209,7 +205,7 @@ public:
     // The word that a member has, or the first of its possible words.
     [[nodiscard]] std::string word(std::string_view name) const {
         const JsonMember& row = *row_of(name);
-        const auto found = find(row);
+        const auto found = find(field_, name);
         return found ? text(*found) : std::string(row.value.words.front());
     }
 
@@ -217,17 +213,8 @@ private:
     [[nodiscard]] const JsonMember* row_of(std::string_view name) const {
         for (const JsonMembers& table : tables_)
             for (const JsonMember& row : table)
-                if (row.name == name || (!row.also.empty() && row.also == name))
-                    return &row;
+                if (row.name == name) return &row;
         return nullptr;
-    }
-    [[nodiscard]] std::optional<JsonField> find(const JsonMember& row) const {
-        const auto found = detail::find(field_, row.name);
-        if (row.also.empty()) return found;
-        const auto other = detail::find(field_, row.also);
-        if (found && other)
-            refuse(*other, std::string("is given as ").append(row.name) + " as well");
-        return found ? found : other;
     }
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> all;
@@ -244,11 +231,14 @@ private:
 // member that holds the object.
 struct JsonTable {
     std::string_view name;
-    std::string_view also; // its name in C++ if that differs
     std::string_view text;
     JsonMembers members;
     JsonNames one_of{}; // members of which an object has exactly one
 };
+
+// The member that names the table of an object.
+inline constexpr JsonMember type_row =
+    needed("type", text_value, "one of the types below", {});
 
 // The table that the `type` of an object names.
 [[nodiscard]] inline const JsonTable& table_of(std::span<const JsonTable> tables,

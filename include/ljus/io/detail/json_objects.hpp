@@ -39,20 +39,18 @@ using FileSceneT = Scene<
 /// exception that names MeshFiles.
 template <std::floating_point T>
 struct NoMeshesT {
-    [[noreturn]] std::vector<MeshT<T>> operator()(const std::string& file, double,
-                                                  const std::string&) const {
+    [[noreturn]] LoadedMeshT<T> operator()(const std::string& file,
+                                           const MeshFileSettings&) const {
         refuse_file(file, "load_json() reads no meshes unless it is given MeshFiles, "
                           "from ljus/io/load_mesh.hpp");
     }
 };
 
-inline constexpr std::string_view object_words[]{
-    "sphere", "triangles", "mesh", "instances", "quad", "box", "disc", "cylinder"};
 inline constexpr std::string_view normals_words[]{"file", "smooth", "flat"};
 inline constexpr std::string_view ends_words[]{"open", "closed"};
 
 inline constexpr JsonMember object_shared[]{
-    needed("type", {.kind = JsonKind::word, .words = object_words}, "which shape", {}),
+    type_row,
     optional("name", remark_value, "for people"),
     preset("emission", light_value, 0,
            "radiance on the side of the normal, W/(m^2 sr): it is a lamp"),
@@ -127,20 +125,16 @@ inline constexpr JsonMember cylinder_members[]{
            "a tube, or closed by two discs")};
 
 inline constexpr JsonTable object_tables[]{
-    {"sphere", {}, "a ball", sphere_members},
-    {"triangles",
-     {},
-     "triangles; two that form a parallelogram become a quad",
+    {"sphere", "a ball", sphere_members},
+    {"triangles", "triangles; two that form a parallelogram become a quad",
      triangles_members},
-    {"mesh", {}, "the triangles of a file: ljus::MeshFiles", mesh_members},
-    {"instances",
-     {},
-     "the meshes of a file, kept once, in many places: ljus::Instance",
+    {"mesh", "the triangles of a file: ljus::MeshFiles", mesh_members},
+    {"instances", "the meshes of a file, kept once, in many places: ljus::Instance",
      instances_members},
-    {"quad", {}, "a parallelogram", quad_members},
-    {"box", {}, "six quads that face outwards", box_members},
-    {"disc", {}, "a disc", disc_members},
-    {"cylinder", {}, "a tube", cylinder_members}};
+    {"quad", "a parallelogram", quad_members},
+    {"box", "six quads that face outwards", box_members},
+    {"disc", "a disc", disc_members},
+    {"cylinder", "a tube", cylinder_members}};
 
 inline std::array<std::uint32_t, 3>
 read_triangle(const JsonField& field, const std::vector<glm::dvec3>& points) {
@@ -189,24 +183,29 @@ inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 <<
 /// instance is computed as a sum over its triangles.
 inline constexpr std::size_t max_placed_triangles = 1 << 30;
 
-// How an object names a mesh file, and whether it is made of the file's materials.
+// How an object names a mesh file. The pictures are read if the object has the
+// materials of the file.
 struct MeshName {
     JsonField file;
     std::string path;
-    double scale;
-    std::string normals;
-    bool own_materials;
+    MeshFileSettings settings;
 
     [[nodiscard]] bool same_reading(const MeshName& other) const {
-        return scale == other.scale && normals == other.normals &&
-               own_materials == other.own_materials;
+        const MeshFileSettings &a = settings, &b = other.settings;
+        return a.scale == b.scale && a.normals == b.normals && a.pictures == b.pictures;
     }
 };
 
 inline MeshName mesh_name(const JsonMembersOf& in, bool own_materials) {
     const JsonField file = in["file"];
-    return {file, path_beside(file), in.number("scale"), in.word("normals"),
-            own_materials};
+    const std::string normals = in.word("normals");
+    return {file,
+            path_beside(file),
+            {.scale = in.number("scale"),
+             .normals = normals == "smooth" ? MeshNormals::smooth
+                        : normals == "flat" ? MeshNormals::flat
+                                            : MeshNormals::file,
+             .pictures = own_materials}};
 }
 
 template <std::floating_point T>
@@ -260,16 +259,7 @@ struct FilePartsT {
 template <std::floating_point T, typename LoadMeshes>
 FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
                          FileMeshesT<T>& known, LoadMeshes& load_meshes) {
-    if (!named.own_materials)
-        return {load_meshes(named.path, named.scale, named.normals)};
-    const auto load = [&](auto& by) -> LoadedMeshT<T> {
-        if constexpr (requires { by.with_materials(named.path, 1.0, named.normals); })
-            return by.with_materials(named.path, named.scale, named.normals);
-        else
-            refuse(named.file, "is without a material; those of a mesh file are read "
-                               "by MeshFiles, from ljus/io/load_mesh.hpp");
-    };
-    LoadedMeshT<T> loaded = load(load_meshes);
+    LoadedMeshT<T> loaded = load_meshes(named.path, named.settings);
     for (const auto& [name, image] : loaded.pictures)
         known.pixels += image.pixels.size();
     if (known.pixels > std::size_t(max_image_pixels))
@@ -279,11 +269,12 @@ FilePartsT<T> load_parts(const MeshName& named, FileSceneT<T>& scene,
                      std::to_string(max_image_pixels), " pixels"}));
     FilePartsT<T> parts;
     for (MeshPartT<T>& part : loaded.parts) {
+        parts.meshes.push_back(std::move(part.mesh));
+        if (!named.settings.pictures) continue;
         const MaterialId id = made_of(named.file, [&] {
             return add_material<FileMapT<T>>(scene, part.material, loaded);
         });
         parts.surfaces.push_back({id, RgbT<T>(part.material.emission)});
-        parts.meshes.push_back(std::move(part.mesh));
     }
     return parts;
 }

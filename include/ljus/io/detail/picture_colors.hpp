@@ -14,7 +14,6 @@
 
 #include "ljus/image/color.hpp"
 #include "ljus/io/detail/picture_damage.hpp"
-#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {
