@@ -86,6 +86,8 @@ TEST_CASE("photon: roulette changes no mean, in any channel") {
                 mean += RgbD(*survivor) / double(steps);
         for (int c = 0; c < 3; ++c) {
             const double exact = double(flux[c]) * double(weight[c]);
+            CAPTURE(exact);
+            CAPTURE(mean[c]);
             // The survivors are a whole number of steps, each as large as any channel.
             REQUIRE(std::abs(mean[c] - exact) <= 4.0 / steps);
         }

@@ -937,6 +937,7 @@ TEST_CASE("tracing: what is stored where, by both normals, for its own map") {
     CHECK(stored(MapType::caustics, matt)[0].kind == PhotonKind::caustic);
     path.met_diffuse = true;
     CHECK(stored(MapType::caustics, matt).empty());
+    REQUIRE(stored(MapType::general, matt).size() == 1);
     CHECK(stored(MapType::general, matt)[0].kind == PhotonKind::indirect);
 
     // Scattered: caustic photons, and those the normals disagree on, by mirrors only.

@@ -48,12 +48,26 @@ for script in book figures install-packages measure new-concept plot test trades
     help=$(cd "$LJUS_ROOT" && CDPATH=$LJUS_ROOT/tests:$LJUS_ROOT bash scripts/$script --help 2>&1) &&
         [ -n "$help" ] || { echo "WRONG: $script --help with CDPATH: $help"; wrong=1; }
 done
-# A new concept gets its five files.
+# A header or a chapter that has no test of its name: the sentence names its tests.
+for row in "photon_path:emission tracing photon" "lamps:goniometric picture_lamp"; do
+    said=$(bash "$LJUS_ROOT/scripts/test" "${row%%:*}" 2>&1) && wrong=1
+    case $said in
+        *"those of '${row%%:*}' are: ${row#*:}"*) ;;
+        *) echo "WRONG: test ${row%%:*}: $said"; wrong=1 ;;
+    esac
+done
+# A new concept gets its five files; one without a chapter, its three.
 mkdir -p "$scratch/new/chapters"
 cp -r "$LJUS_ROOT/scripts" "$scratch/new/"
 echo '| 49 | \anchor ch_new_idea "New idea" | |' >"$scratch/new/chapters/contents.md"
-said=$(bash "$scratch/new/scripts/new-concept" new_idea geometry 2>&1) || true
-[ "$(grep -c '^created ' <<<"$said")" -eq 5 ] || { echo "WRONG: new-concept: $said"; wrong=1; }
+for row in "5 new_idea geometry" "3 new_format io"; do
+    said=$(bash "$scratch/new/scripts/new-concept" ${row#* } 2>&1) || true
+    [ "$(grep -c '^created ' <<<"$said")" -eq "${row%% *}" ] ||
+        { echo "WRONG: new-concept: $said"; wrong=1; }
+done
+grep -q 'no chapter' <<<"$said" || { echo "WRONG: new-concept in silence: $said"; wrong=1; }
+! grep -q 'ch_new_format' "$scratch"/new/include/ljus/io/new_format.hpp ||
+    { echo "WRONG: new-concept refers to a chapter that is not there"; wrong=1; }
 # CMake's own words would not say what is wrong.
 odd="$scratch/a\"b"
 mkdir -p "$odd"

@@ -31,7 +31,8 @@ void all(ljus::Ray ray, ljus::Sphere sphere, ljus::Triangle triangle, ljus::Surf
          ljus::Pattern pattern, std::uint64_t seed, std::uint64_t path, std::uint64_t key,
          int i, int n_rays, int width, int height, std::vector<ljus::Box> boxes,
          std::vector<ljus::Vec3> positions, ljus::Bvh bvh, ljus::KdTree8 tree, ljus::PhotonMap map,
-         ljus::DensityEstimateSettings gather, ljus::Image image) {
+         ljus::DensityEstimateSettings gather, std::vector<ljus::Neighbor> found,
+         ljus::Image image) {
     const auto visit = [](std::uint32_t, double) {};
     const auto ask = [=](std::uint32_t, const ljus::Ray& rest) { return intersect(rest, triangle); };
 END

@@ -14,6 +14,12 @@ other=$(other_compiler)
 status=0
 problem() { echo "$*"; status=1; }
 
+# Where it cannot write, it says so in one line.
+said=$("$LJUS_PYTHON" "$LJUS_ROOT/scripts/single-header" sphere --out "$single/sphere.hpp" 2>&1) &&
+    problem "it wrote into a file instead of a folder"
+[[ $said == "single-header: cannot write to $single/sphere.hpp: File exists; "*"another folder." ]] ||
+    problem "where it cannot write, it says: $said"
+
 # Those whose packages are installed.
 names=()
 while read -r header; do

@@ -1,5 +1,5 @@
 // A camera that takes no random stream.
-// says: This is no camera: it has a type Scalar and camera_ray\(camera, pixel, width
+// says: a camera has a type Scalar and camera_ray\(camera, pixel, width
 
 #include <ljus/ljus.hpp>
 using namespace ljus;

@@ -68,6 +68,8 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     sets.push_back(make("two heaps", [&](std::size_t i) {
         return D{i % 2 == 0 ? 1 : -1, 0, 0};
     }));
+    sets.push_back(
+        make("along an axis", [&](auto) { return D{0, numbers.unit(), 0}; }));
     return sets;
 }
 

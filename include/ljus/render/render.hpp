@@ -242,8 +242,8 @@ template <typename R, typename C>
                           const RenderSettings& picture) {
     static_assert(
         CameraLike<C>,
-        "This is no camera: it has a type Scalar and camera_ray(camera, pixel, "
-        "width, height, stream), which returns a Ray.");
+        "This is no camera, which render() takes second: a camera has a type Scalar "
+        "and camera_ray(camera, pixel, width, height, stream), which returns a Ray.");
     if constexpr (CameraLike<C>) {
         using T = typename C::Scalar;
         static_assert(
