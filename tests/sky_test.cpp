@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ljus/lights/spot_light.hpp"
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/materials/lambertian.hpp"
@@ -311,4 +312,42 @@ TEST_CASE("sky: its photons bring pi L to an open floor, and glass its share") {
     CHECK(std::abs(apart(aimed, blind)) < 5);
     CHECK(aimed.mean < 4 * pi * pi * 0.25 * 0.95); // the other ball stands in the way
     CHECK(aimed.error() < 0.01 * aimed.mean);
+}
+
+TEST_CASE("sky: behind a pane it has the colour of the pane, and photons keep it") {
+    // Straight on r = 0.04. Of a pane with the tint a passes (1 - r)^2 a / (1 - r^2 a^2)
+    // = T, and r (1 + a T) returns; both lead to the sky.
+    const ThinGlass pane{.tint{1, 0.5f, 0.1f}};
+    const Quad quad{.corner{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}};
+    const World world(make_scene(placed(quad, pane), Sky{}));
+    const World lit(make_scene(placed(quad, pane),
+                               SpotLight{.position{0, 0, 5},
+                                         .direction{0, 0, -1},
+                                         .inner_degrees = 0.1f,
+                                         .outer_degrees = 0.1f}));
+    const auto audit = trace_photons(lit, MapType::general,
+                                     {.photons = 100000, .shadow_photons = false})
+                           .audit;
+    const auto straight_on = [](RandomStream&) {
+        return Ray{.origin{0.1f, 0.2f, 5}, .direction{0, 0, -1}};
+    };
+    for (int c = 0; c < 3; ++c) {
+        CAPTURE(c);
+        const double a = double(pane.tint[c]), r = 0.04;
+        const double through = (1 - r) * (1 - r) * a / (1 - r * r * a * a);
+        const double right = through + r * (1 + a * through);
+        const auto finds = [&](const auto& renderer) {
+            const Mean seen = mean_radiance(renderer, 20000, 1, straight_on, c);
+            CHECK(std::abs(apart(seen, right)) < 5);
+            CHECK(seen.error() < 0.01);
+        };
+        finds(PathTracer(world));
+        finds(PhotonMapper(world));
+        finds(DistributedTracer(world));
+        finds(WhittedTracer(world));
+        CHECK(audit.escaped[c] / audit.emitted[c] ==
+              doctest::Approx(right).epsilon(0.02));
+        CHECK((audit.absorbed[c] + audit.roulette[c]) / audit.emitted[c] ==
+              doctest::Approx(1 - right).epsilon(0.02));
+    }
 }

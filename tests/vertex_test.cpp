@@ -569,6 +569,7 @@ TEST_CASE("vertex: a way is blocked by the thousandth pane") {
         auto stream = random_stream(1, Pass::user, 0, 0);
         PathStateT<double> path{.ray{.origin{0, 0, 1000.5}, .direction{0, 0, -1}}};
         CHECK(next_vertex(world, path, stream).has_value() == (panes < 1000));
+        CHECK(path.throughput.x == doctest::Approx(panes < 1000 ? 1 : 0)); // nor a sky
         const auto point = [](double z) {
             return SurfacePointT<double>{.position{0, 0, z}, .normal{0, 0, 1}};
         };

@@ -42,3 +42,9 @@ ljus_break_it(NAME thin_surfaces-place HEADER path/next_vertex.hpp TEST soap_fil
     FROM "const auto& here = material_at(m, vertex.point.position, vertex.uv);"
     TO   "const auto& here = m;"
     CASES "thin sheets: a bubble in a furnace*")
+
+# What the sheets on the way to the sky let through is forgotten: a mean of all colours.
+ljus_break_it(NAME thin_surfaces-sky HEADER path/next_vertex.hpp TEST sky
+    FROM "        path.throughput *= passage.through;\n        return vertex;"
+    TO   "        return vertex;"
+    CASES "sky: behind a pane*")

@@ -522,6 +522,7 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
         ray = spawn_ray(vertex.point, ray.direction, ray.time);
         hit = closest_hit(world, ray);
     }
+    if (hit) passage.through = RgbT<T>{T(0)}; // blocked
     hit.reset();
     return passage;
 }
@@ -712,7 +713,10 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
     auto hit = closest_hit(world, path.ray);
     const detail::PassageT<T> passage = detail::passage(world, path, hit, stream);
     std::optional<VertexT<T>> vertex;
-    if (!hit) return vertex;
+    if (!hit) {
+        path.throughput *= passage.through;
+        return vertex;
+    }
 
     detail::fill_vertex(vertex.emplace(), world, path.ray, *hit);
     if constexpr (detail::lists_dispersive<W>)

@@ -374,18 +374,19 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
             if (fog == InFog::scattered) continue;
             if (fog == InFog::ended) return;
         }
+        const RgbT<double> after(path.throughput);
+        audit.absorbed += before - after; // by media and thin surfaces
         if (!vertex) {
-            audit.escaped += before;
+            audit.escaped += after;
             return;
         }
         const bool first = path.depth == 1;
         if (first && sent.target && vertex->id != *sent.target) {
-            audit.cut += before;
+            audit.cut += after;
             return;
         }
         if (first && map == MapType::general && pass.shadow_photons)
             trace_shadow(world, photon, vertex->point, stream, block.photons);
-        audit.absorbed += before - RgbT<double>(path.throughput); // absorbed by media
         if (is_black(path.throughput)) return;
 
         const auto at_material = [&]<typename M>(const M& material) {
