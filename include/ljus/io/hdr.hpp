@@ -177,13 +177,8 @@ template <std::floating_point T = float>
         if (line.starts_with("PRIMARIES=")) {
             const auto numbers = detail::header_numbers(line, 10);
             const std::vector<double> unknown(8); // so written by image editors
-            detail::Primaries xy = detail::srgb_primaries;
-            if (numbers.size() == xy.size() && numbers != unknown)
-                std::copy(numbers.begin(), numbers.end(), xy.begin());
-            primaries = detail::to_srgb(xy);
-            if (numbers.size() != xy.size() || !primaries)
-                reader.fail(says +
-                            ", which is not (x, y) of red, green, blue and white");
+            if (numbers != unknown) primaries = detail::to_srgb(numbers);
+            if (!primaries) reader.fail(says + ", which are no primaries and white");
         }
         if (line.starts_with("GAMMA=") &&
             detail::header_numbers(line, 6) != std::vector<double>{1.0})

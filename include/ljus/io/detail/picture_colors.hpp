@@ -20,6 +20,11 @@
 
 namespace ljus::detail {
 
+constexpr Primaries p3_primaries{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
+constexpr Primaries adobe_primaries{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.329};
+constexpr Primaries rec2020_primaries{0.708, 0.292, 0.17,   0.797,
+                                      0.131, 0.046, 0.3127, 0.329};
+
 // How the bytes of a picture become linear sRGB: by a curve for each channel, then by a
 // matrix.
 struct ByteColors {
@@ -161,15 +166,11 @@ ByteColors png_colors(const Bytes& file, Inflate inflate) {
         // H.273). Read are the primaries of sRGB, Rec. 2020 and Display P3, and the
         // curve of sRGB and the linear one.
         colors.says = "its cICP chunk";
-        const auto space = byte_at(file, by_number),
-                   curve = byte_at(file, by_number + 1);
+        const std::size_t space = byte_at(file, by_number);
+        const std::size_t curve = byte_at(file, by_number + 1);
         if (curve == 8) colors.decode_by_gamma(1);
-        if (space == 9)
-            colors.matrix = to_srgb(
-                Primaries{0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329});
-        if (space == 12)
-            colors.matrix =
-                to_srgb(Primaries{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329});
+        if (space == 9) colors.matrix = to_srgb(rec2020_primaries);
+        if (space == 12) colors.matrix = to_srgb(p3_primaries);
         if ((space != 1 && space != 9 && space != 12) || (curve != 8 && curve != 13) ||
             png_number(file, by_number) % 65536 != 1)
             colors.matrix.reset();
@@ -219,8 +220,7 @@ inline ByteColors jpeg_colors(const Bytes& file) {
     ByteColors colors;
     if (!adobe) return colors;
     colors.decode_by_gamma(563 / 256.0);
-    colors.matrix =
-        to_srgb(Primaries{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.329});
+    colors.matrix = to_srgb(adobe_primaries);
     return colors;
 }
 
