@@ -153,18 +153,29 @@ TEST_CASE("exr: layers come back with their names, channels and values") {
 }
 
 TEST_CASE("exr: what another library has written, by every compression that is read") {
-    for (const char* name : {"none", "rle", "zips", "piz", "pxr24", "b44a", "tiled"}) {
+    for (const char* name :
+         {"none", "rle", "zips", "piz", "pxr24", "b44a", "b44_floats", "tiled"}) {
         CAPTURE(name);
         REQUIRE_NOTHROW((void)load_exr_layers<double>(input(name)));
         const auto layers = load_exr_layers<double>(input(name));
-        const bool tiled = layers.size() == 1; // of which the largest level counts
-        REQUIRE((tiled || layers.size() == 3));
-        for (int y = 0; y < 8; ++y)
-            for (int x = 0; x < 6; ++x) {
-                CHECK(pixel(layers[0].image, x, y) == RgbT<double>(input_color(x, y)));
-                if (tiled) continue;
-                CHECK(pixel(layers[1].image, x, y).x == x / 16.0);       // half.R
-                CHECK(pixel(layers[2].image, x, y).y == x * 1000.0 + y); // id, whole
+        // Of tiles the largest level counts. B44 stores floats as they are.
+        const bool alone = layers.size() == 1;
+        REQUIRE((alone || layers.size() == 3));
+        // Of one file the data window begins 2 columns and 3 rows before the display
+        // window, which is as large, so that its end is not stored.
+        const bool before = name == std::string("zips");
+        for (int row = 0; row < 8; ++row)
+            for (int column = 0; column < 6; ++column) {
+                const int x = before ? column + 2 : column, y = before ? row + 3 : row;
+                const bool stored = x < 6 && y < 8;
+                const auto is = [&](std::size_t layer, const RgbT<double>& color) {
+                    CHECK(pixel(layers[layer].image, column, row) ==
+                          (stored ? color : RgbT<double>{0}));
+                };
+                is(0, RgbT<double>(input_color(x, y)));
+                if (alone) continue;
+                is(1, RgbT<double>{x / 16.0});       // half.R
+                is(2, RgbT<double>{x * 1000.0 + y}); // id, whole
             }
     }
 }
@@ -177,12 +188,13 @@ TEST_CASE("exr: several parts, a data window of its own, and a grey picture") {
     CHECK(pixel(parts[0].image, 3, 4) == Rgb{3 / 16.f, 4 / 32.f, 3 / 16.f});
     // Tiles of 4 x 4 pixels, from column 2 and row 3 of the picture on.
     CHECK(channel_name(parts[1], 0) == "depth.Z");
-    CHECK(parts[1].image.width == 4);
-    CHECK(parts[1].image.height == 5);
-    for (int y = 0; y < 5; ++y)
-        for (int x = 0; x < 4; ++x)
-            CHECK(pixel(parts[1].image, x, y).x == float(x + 2 + 100 * (y + 3)));
-    CHECK(load_exr(input("parts"), "depth.Z").width == 4);
+    CHECK(parts[1].image.width == 6);
+    CHECK(parts[1].image.height == 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 6; ++x)
+            CHECK(pixel(parts[1].image, x, y).x ==
+                  (x < 2 || y < 3 ? 0.0f : float(x + 100 * y)));
+    CHECK(load_exr(input("parts"), "depth.Z").pixels == parts[1].image.pixels);
     CHECK(refusal_of(input("parts")) ==
           input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z': "
                            "load one by its name, or save it as R, G and B.");
@@ -278,10 +290,15 @@ TEST_CASE("exr: what is wrong with a file is said in a sentence") {
     CHECK(with_corner({0xffffffff, 7}).starts_with(file + " is damaged"));
 }
 
-TEST_CASE("exr: other primaries than those of sRGB are refused by name") {
+TEST_CASE("exr: colours of other primaries become those of sRGB, cubes are refused") {
     const std::string file = folder.file("primaries.exr");
-    const auto refusal_with = [&](const std::array<float, 8>& primaries) {
-        save_exr(make_image<float>(2, 1, Rgb{0.5f}), file);
+    const Image colors{3, 1, {Rgb{0.5f}, {0.5f, 0.25f, 0.125f}, {0.25f, 0.5f, 0.75f}}};
+    const auto save_with = [&](const std::string& name, const Bytes& value) {
+        save_exr_layers(
+            std::vector<Layer>{
+                {.image = colors},
+                {.name = "N", .channels = {"X", "Y", "Z"}, .image = colors}},
+            file);
         Bytes bytes = load_file(file, 1 << 20);
         // The offset of the only chunk, which stands before it, becomes larger.
         const auto number = [&](std::size_t at) {
@@ -289,34 +306,76 @@ TEST_CASE("exr: other primaries than those of sRGB are refused by name") {
         };
         std::size_t at = 8;
         while (number(at) != at + 8) ++at;
-        Bytes attribute;
-        for (int i = 0; i < 2; ++i) {
-            for (const char c : std::string("chromaticities"))
-                attribute.push_back(static_cast<unsigned char>(c));
-            attribute.push_back(0);
-        }
-        attribute.insert(attribute.end(), {32, 0, 0, 0});
-        for (const float value : primaries)
-            for (int shift = 0; shift < 32; shift += 8)
-                attribute.push_back(static_cast<unsigned char>(
-                    std::bit_cast<std::uint32_t>(value) >> shift));
+        Bytes attribute; // of a type that has the same name
+        for (int i = 0; i < 2; ++i)
+            attribute.insert(attribute.end(), name.c_str(),
+                             name.c_str() + name.size() + 1);
+        attribute.insert(attribute.end(),
+                         {static_cast<unsigned char>(value.size()), 0, 0, 0});
+        attribute.insert(attribute.end(), value.begin(), value.end());
         const std::size_t behind = at + 8 + attribute.size();
         bytes[at] = static_cast<unsigned char>(behind);
         bytes[at + 1] = static_cast<unsigned char>(behind >> 8);
         bytes.insert(bytes.begin() + 8, attribute.begin(), attribute.end());
         save_file(file, bytes);
-        return refusal_of(file);
     };
-    // Those of sRGB, with its white or another; of ACES; with another blue alone.
-    for (const float white : {0.3127f, 0.3457f})
-        CHECK(refusal_with({0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, white, 0.329f}) ==
-              "accepted");
-    for (const std::array<float, 8>& other :
-         {std::array{0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.3217f, 0.3377f},
-          std::array{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.03f, 0.3127f, 0.329f}})
-        CHECK(refusal_with(other) ==
-              file + " has other primaries than those of sRGB, as its chromaticities "
-                     "say; convert it to them.");
+    const auto save_in = [&](const std::array<float, 8>& primaries) {
+        Bytes value;
+        for (const float number : primaries)
+            for (int shift = 0; shift < 32; shift += 8)
+                value.push_back(static_cast<unsigned char>(
+                    std::bit_cast<std::uint32_t>(number) >> shift));
+        save_with("chromaticities", value);
+    };
+    const auto far = [](const Image& a, const Image& b) {
+        float most = 0;
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            most = std::max(most, glm::distance(a.pixels[i], b.pixels[i]));
+        return most;
+    };
+    // Those of sRGB, with its white or another.
+    for (const float white : {0.3127f, 0.3457f}) {
+        save_in({0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, white, 0.329f});
+        CHECK(far(load_exr(file), colors) == 0);
+    }
+    // Of ACES and ACEScg; their numbers are from Little CMS 2.14. Negative channels
+    // are 0.
+    struct Row {
+        std::array<float, 8> primaries;
+        std::vector<Rgb> colors;
+    };
+    for (const Row& row :
+         {Row{{0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.3217f, 0.3377f},
+              {Rgb{0.5f}, {0.92883f, 0.19291f, 0.10011f}, {0, 0.54506f, 0.79593f}}},
+          Row{{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f},
+              {Rgb{0.5f},
+               {0.68667f, 0.21875f, 0.09988f},
+               {0.05292f, 0.52993f, 0.79424f}}},
+          // X, Y and Z themselves, which are not adapted, by the matrix of sRGB.
+          Row{{1, 0, 0, 1, 0, 0, 0.33333f, 0.33333f},
+              {{0.60239f, 0.47415f, 0.45442f},
+               {1.17363f, 0, 0.10897f},
+               {0, 0.72686f, 0.70482f}}}}) {
+        save_in(row.primaries);
+        CHECK(far(load_exr(file), {3, 1, row.colors}) < 3e-4f);
+        // Normals have none.
+        const auto layers = load_exr_layers(file);
+        REQUIRE(layers.size() == 2);
+        for (const Layer& layer : layers)
+            CHECK(far(layer.image,
+                      layer.name == "N" ? colors : Image{3, 1, row.colors}) < 3e-4f);
+    }
+    save_in({});
+    CHECK(refusal_of(file) ==
+          file + " has chromaticities of which red, green and blue together are not "
+                 "white.");
+    save_with("envmap", {0}); // latitude and longitude
+    CHECK(refusal_of(file) == "accepted");
+    save_with("envmap", {1});
+    CHECK(refusal_of(file) ==
+          file + " has the six faces of a cube, as its attribute envmap says; convert "
+                 "it to latitude and longitude, for example by 'exrenvmap -l'.");
+    CHECK(load_exr_layers(file).size() == 2);
 }
 
 TEST_CASE("exr: what reads meshes reads pictures as well") {

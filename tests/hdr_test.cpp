@@ -252,15 +252,14 @@ TEST_CASE("hdr: the exposure of the header is taken out again") {
     }
 }
 
-TEST_CASE("hdr: the colour correction of the header is taken out, other primaries are "
-          "refused") {
+TEST_CASE("hdr: the colour correction of the header is taken out, colours of other "
+          "primaries become those of sRGB") {
     // Two lines, 2 4 0.5 and 1 1 2, over (1, 0.5, 0.25).
     const std::string folder = LJUS_TEST_INPUTS "/";
     CHECK(ljus::load_hdr(folder + "colorcorr.hdr").pixels[1] ==
           ljus::Rgb{0.5f, 0.125f, 0.25f});
-    CHECK(
-        message_of_load(folder + "primaries.hdr").find("its header says PRIMARIES=") ==
-        0);
+    CHECK(message_of_load(folder + "primaries.hdr")
+              .starts_with("its header says GAMMA="));
     const ScratchFolder scratch;
     const std::string path = scratch.file("a.hdr");
     const auto message = [&](const std::string& line) {
@@ -269,6 +268,12 @@ TEST_CASE("hdr: the colour correction of the header is taken out, other primarie
         return message_of_load(path);
     };
     CHECK(message("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333") == "loaded");
+    CHECK(ljus::load_hdr(path).pixels[0] == ljus::Rgb{1.0f, 0.5f, 0.25f});
+    // Those of Rec. 2020, as Little CMS 2.14 converts (1, 0.5, 0.25).
+    CHECK(message("PRIMARIES=.708 .292 .17 .797 .131 .046 .3127 .329") == "loaded");
+    CHECK(glm::distance(ljus::load_hdr(path).pixels[0],
+                        ljus::Rgb{1.34846f, 0.43981f, 0.21124f}) < 1e-4f);
+    CHECK(message("PRIMARIES=.708 .292 .708 .292 .708 .292 .3127 .329") != "loaded");
     CHECK(message("PRIMARIES= .640 .330 .290 .600") != "loaded");
     CHECK(message("PRIMARIES=0 0 0 0 0 0 0 0") == "loaded"); // stands for unknown
     CHECK(message("PRIMARIES=0 0 0 0") != "loaded");

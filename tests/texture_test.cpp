@@ -627,56 +627,88 @@ TEST_CASE("texture: a PNG file of another kind, and one of another gamma") {
     CHECK(srgb == doctest::Approx(0.5).epsilon(0.01));
     CHECK(shown(with("gAMA", 45455, true)) == srgb);
     CHECK(shown(with("sRGB", 0, false)) == srgb);
-    // Primaries and transfer by number: of sRGB, of HDR television, of Display P3.
     CHECK(shown(with("cICP", 0x010d0001, true)) == srgb);
+    // Rec. 2020 by PQ, an unknown curve or matrix, and bytes from 16 to 235.
     for (const std::uint32_t other :
-         {0x09100001u, 0x0c0d0001u, 0x01080001u, 0x010d0000u})
+         {0x09100001u, 0x01010001u, 0x010d0101u, 0x010d0000u})
         CHECK_THROWS_WITH((void)shown(with("cICP", other, true)),
-                          "a has other colours than those of sRGB, as its cICP chunk "
+                          "a has colours of a kind that is not read, as its cICP chunk "
                           "says; save it as sRGB.");
 }
 
-TEST_CASE("texture: colours of other profiles are refused by their name") {
+TEST_CASE("texture: colours of other profiles become linear sRGB, or are refused") {
     const auto other = [](const std::string& what) {
-        return "a has other colours than those of sRGB, as " + what +
+        return "a has colours of a kind that is not read, as " + what +
                " says; save it as sRGB.";
     };
-    const Bytes png = encode_png(make_image<float>(2, 1, Rgb{0.5f}));
+    const auto bytes = [](int r, int g, int b) {
+        return Rgb(RgbT<double>{srgb_decode(r / 255.0), srgb_decode(g / 255.0),
+                                srgb_decode(b / 255.0)});
+    };
+    Image two = make_image<float>(2, 1, bytes(200, 100, 50));
+    two.pixels[1] = bytes(0, 255, 0);
+    const Bytes png = encode_png(two);
     const Bytes jpeg = load_file(LJUS_TEST_INPUTS "/turned_padded.jpg", 1 << 20);
+    const Bytes jpeg_as_png = encode_png(decode_image(jpeg, "a"));
+    const auto is = [](const Bytes& file, const Rgb& color) {
+        const Image read = decode_image(file, "a");
+        const float error = max_component(glm::abs(read.pixels[0] - color));
+        CHECK_MESSAGE(error < 2e-4, read.pixels[0].x, " ", read.pixels[0].y, " ",
+                      read.pixels[0].z);
+        CHECK(read.pixels[1].y <= 1);
+        CHECK(read.pixels[1].x >= 0);
+    };
     const Bytes gamma = curve_of_gamma(2.2), table = curve_of_table(srgb_decode);
     const Bytes numbers =
         curve_of_numbers(3, {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045});
-    REQUIRE(trouble_with(jpeg).empty());
+    const auto p3_by = [](std::uint32_t kind, const std::vector<double>& of_curve) {
+        return profile_of("Display P3", true, of_p3, curve_of_numbers(kind, of_curve));
+    };
 
+    // What Little CMS 2.14 makes of the bytes 200, 100, 50 (relative colorimetric, into
+    // linear sRGB); or why they are not read.
     struct Row {
         Bytes profile;
-        std::string why;
+        Rgb color;
+        std::string why = "";
     };
+    Bytes cut = profile_of("cut", true, of_p3, table);
+    cut.resize(cut.size() - 1000);
     const std::array rows{
-        Row{profile_of("sRGB IEC61966-2.1", false, of_srgb, table), ""},
-        Row{profile_of("sRGB", true, of_srgb, numbers), ""},
-        Row{profile_of("c2", false, of_srgb, gamma), ""},
+        Row{profile_of("sRGB IEC61966-2.1", false, of_srgb, table),
+            {0.57750f, 0.12748f, 0.03188f}},
+        Row{profile_of("sRGB", true, of_srgb, numbers), {0.57750f, 0.12748f, 0.03188f}},
+        Row{profile_of("c2", false, of_srgb, gamma), {0.58600f, 0.12766f, 0.02778f}},
         // Of tables alone.
-        Row{profile_of("sRGB v4 ICC preference", true, of_srgb, {}), ""},
-        Row{profile_of("ProPhoto RGB", true, of_srgb, {}), "'ProPhoto RGB'"},
-        Row{profile_of("Gray Gamma 2.2", true, {}, gamma, "GRAY"), ""},
+        Row{profile_of("sRGB v4 ICC preference", true, of_srgb, {}),
+            {0.57750f, 0.12748f, 0.03188f}},
+        Row{profile_of("Wide", true, of_srgb, {}), {}, " 'Wide'"},
+        Row{profile_of("Gray Gamma 2.2", true, {}, gamma, "GRAY"),
+            {0.58608f, 0.12762f, 0.02779f}},
         Row{profile_of("Dot Gain 20%", true, {}, curve_of_gamma(1.75), "GRAY"),
-            "'Dot Gain 20%'"},
-        Row{profile_of("Display P3", true, of_p3, numbers), "'Display P3'"},
+            {0.65367f, 0.19434f, 0.05778f}},
+        Row{profile_of("Display P3", true, of_p3, numbers),
+            {0.67882f, 0.10852f, 0.01363f}},
+        Row{p3_by(0, {1.8}), {0.74931f, 0.16610f, 0.03119f}},
+        Row{p3_by(1, {2.2, 0.9, 0.1}), {0.72252f, 0.15632f, 0.03889f}},
+        Row{p3_by(1, {2.2, 1.25, -0.25}), {0.60390f, 0.02414f, 0.0f}}, // -0.01328
+        Row{p3_by(2, {2.2, 0.8, 0.1, 0.05}), {0.62597f, 0.17863f, 0.08415f}},
+        Row{p3_by(4, {2.0, 0.8, 0.1, 0.2, 0.2, 0.1, 0.05}),
+            {0.70971f, 0.25611f, 0.06427f}},
+        Row{p3_by(5, {2.2}), {}, " 'Display P3'"},
         Row{profile_of("Adobe RGB (1998)", false, of_adobe, curve_of_gamma(2.199)),
-            "'Adobe RGB (1998)'"},
+            {0.76865f, 0.12763f, 0.02354f}},
         Row{profile_of("linear sRGB", true, of_srgb, curve_of_gamma(1)),
-            "'linear sRGB'"},
-        Row{profile_of("1.8", true, of_srgb, curve_of_numbers(0, {1.8})), "'1.8'"},
-        Row{profile_of("SWOP", false, {}, {}, "CMYK"), "'SWOP'"},
-        Row{Bytes(200), ""},
+            {0.78422f, 0.39220f, 0.19607f}},
+        Row{profile_of("black", true, {}, gamma), {}, " 'black'"},
+        Row{profile_of("SWOP", false, {}, {}, "CMYK"), {}, " 'SWOP'"},
+        Row{profile_of("a", false, {}, {}, "Lab "), {}, " 'a'"},
+        Row{cut, {}, " 'cut'"},
+        Row{Bytes(200), {}, ""},
     };
     for (const Row& row : rows) {
-        const bool damaged = row.profile.size() == 200;
-        const std::string why = damaged ? other("its colour profile")
-                                : row.why.empty()
-                                    ? ""
-                                    : other("its colour profile " + row.why);
+        const bool refused = row.color == Rgb{};
+        const std::string why = refused ? other("its colour profile" + row.why) : "";
         CHECK(trouble_with(png_with_profile(png, row.profile)) == why);
         // A JPEG file has it in pieces, in any order.
         const auto half = row.profile.begin() + 100;
@@ -686,27 +718,45 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
                          Bytes(half, row.profile.end()));
         CHECK(trouble_with(file) == why);
         // What is no colour is read as it is.
-        CHECK(trouble_with(file, PictureContent::numbers).empty());
+        CHECK(decode_image(file, "a", 0, PictureContent::numbers).pixels ==
+              decode_image(jpeg, "a", 0, PictureContent::numbers).pixels);
+        if (refused) continue;
+        is(png_with_profile(png, row.profile), row.color);
+        CHECK(decode_image(file, "a").pixels ==
+              decode_image(png_with_profile(jpeg_as_png, row.profile), "a").pixels);
     }
+    // White stays white, and a green that sRGB does not have is limited.
+    CHECK(decode_image(png_with_profile(png, rows[7].profile), "a").pixels[1] ==
+          Rgb{0, 1, 0});
     // Not packed as it should be.
     CHECK(trouble_with(png_with(png, "iCCP", {'a', 0, 0, 1, 2, 3})) ==
           other("its colour profile"));
     CHECK(trouble_with(png_with(png, "iCCP", {'a', 'b'})) ==
           other("its colour profile"));
 
-    // Primaries by themselves, behind those of white; of two chunks, sRGB counts.
-    const auto primaries = [](std::initializer_list<std::uint32_t> all) {
+    // Primaries by themselves, behind those of white; of two chunks, sRGB counts. And
+    // by number: Rec. 2020 with the curve of sRGB, Display P3 with that and linear.
+    const auto numbers_of = [](std::initializer_list<std::uint32_t> all) {
         Bytes content;
         for (const std::uint32_t x : all) add_big(content, x, 4);
         return content;
     };
     const Bytes those =
-        primaries({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000});
+        numbers_of({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000});
     const Bytes adobe =
-        primaries({31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000});
-    CHECK(trouble_with(png_with(png, "cHRM", those)).empty());
-    CHECK(trouble_with(png_with(png, "cHRM", adobe)) == other("its cHRM chunk"));
-    CHECK(trouble_with(png_with(png_with(png, "cHRM", adobe), "sRGB", {0})).empty());
+        numbers_of({31270, 32900, 64000, 33000, 21000, 71000, 15000, 6000});
+    const Bytes with_adobe = png_with(png, "cHRM", adobe);
+    is(png_with(png, "cHRM", those), {0.57750f, 0.12748f, 0.03188f});
+    is(with_adobe, {0.75690f, 0.12744f, 0.02779f});
+    is(png_with(with_adobe, "gAMA", numbers_of({50000})),
+       {0.79893f, 0.15379f, 0.03350f});
+    is(png_with(with_adobe, "sRGB", {0}), {0.57750f, 0.12748f, 0.03188f});
+    CHECK(trouble_with(png_with(png, "cHRM", numbers_of({0, 0, 0, 0, 0, 0, 0, 0}))) ==
+          other("its cHRM chunk"));
+    is(png_with(with_adobe, "cICP", numbers_of({0x090d0001})),
+       {0.88186f, 0.07217f, 0.01238f});
+    is(png_with(png, "cICP", numbers_of({0x0c0d0001})), {0.67884f, 0.10851f, 0.01367f});
+    is(png_with(png, "cICP", numbers_of({0x0c080001})), {0.87253f, 0.37566f, 0.16911f});
 
     // What a camera that is set to Adobe RGB writes: no profile, but the rule R03 in a
     // list of the list of EXIF fields. And the number of Adobe RGB.
@@ -732,16 +782,22 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
     };
     for (const bool by_rule : {true, false}) {
         const Bytes file = jpeg_with(jpeg, 0xe1, {"Exif\0\0", 6}, exif(by_rule));
-        CHECK(trouble_with(file) == other("its EXIF data"));
-        CHECK(trouble_with(
-                  jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile))
-                  .empty());
+        // 563/256 is the gamma of Adobe RGB.
+        const Bytes same = png_with_profile(
+            jpeg_as_png, profile_of("", false, of_adobe, curve_of_gamma(563 / 256.0)));
+        const Rgb found = decode_image(file, "a").pixels[0];
+        is(same, found);
+        const Bytes with_profile =
+            jpeg_with(file, 0xe2, {"ICC_PROFILE\0\1\1", 14}, rows[0].profile);
+        CHECK(decode_image(with_profile, "a").pixels ==
+              decode_image(png_with_profile(jpeg_as_png, rows[0].profile), "a").pixels);
     }
 
-    // BMP: one white pixel, with the longest head.
-    const auto bmp = [&](std::uint32_t kind, const Bytes& profile,
-                         bool primaries_of_p3) {
-        Bytes file(14 + 124 + 4);
+    // BMP: the same two pixels, with the longest head.
+    const auto bmp = [&](std::uint32_t kind, const Bytes& profile, bool primaries_of_p3,
+                         double of_gamma = 0) {
+        Bytes file(14 + 124);
+        file.insert(file.end(), {50, 100, 200, 0, 255, 0, 0, 0});
         const auto put = [&](std::size_t at, std::uint32_t value) {
             for (std::size_t k = 0; k < 4; ++k)
                 file[at + k] = static_cast<unsigned char>(value >> 8 * k);
@@ -750,10 +806,11 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
         file[1] = 'M';
         put(10, 138);
         put(14, 124);
-        put(18, 1);
+        put(18, 2);
         put(22, 1);
         put(26, 1 | 24 << 16);
         put(70, kind);
+        put(110, std::uint32_t(of_gamma * 65536));
         const std::array<double, 6> p3{0.68, 0.32, 0.265, 0.69, 0.15, 0.06};
         for (std::size_t k = 0; k < 3 && primaries_of_p3; ++k) {
             const double x = p3[2 * k], y = p3[2 * k + 1];
@@ -761,22 +818,24 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
             put(78 + 12 * k, std::uint32_t(y * (1 << 30)));
             put(82 + 12 * k, std::uint32_t((1 - x - y) * (1 << 30)));
         }
-        put(126, 128);
+        put(126, 132);
         put(130, std::uint32_t(profile.size()));
         file.insert(file.end(), profile.begin(), profile.end());
         return file;
     };
     const std::uint32_t embedded = 0x4d424544, linked = 0x4c494e4b, srgb = 0x73524742;
-    const auto bmp_said = [&](std::uint32_t kind, const Bytes& profile, bool p3) {
-        return trouble_with(bmp(kind, profile, p3));
-    };
-    CHECK(bmp_said(0, {}, false).empty());
-    CHECK(bmp_said(srgb, {}, true).empty());
-    CHECK(bmp_said(0, {}, true) == other("its header"));
-    CHECK(bmp_said(linked, {}, false) == other("the colour profile that it names"));
-    CHECK(bmp_said(embedded, rows[0].profile, false).empty());
-    CHECK(bmp_said(embedded, rows[7].profile, false) ==
-          other("its colour profile 'Display P3'"));
+    const Rgb as_srgb{0.57750f, 0.12748f, 0.03188f};
+    is(bmp(0, {}, false), as_srgb);
+    is(bmp(srgb, {}, true), as_srgb);
+    is(bmp(0, {}, true, 2.2), {0.67884f, 0.10851f, 0.01367f});
+    is(bmp(0, {}, true, 1 / 2.2), {0.67884f, 0.10851f, 0.01367f});
+    is(bmp(0, {}, true, 1.8), {0.74932f, 0.16609f, 0.03123f});
+    is(bmp(embedded, rows[7].profile, false), rows[7].color);
+    CHECK(trouble_with(bmp(linked, {}, false)) ==
+          other("the colour profile that it names"));
+    Bytes short_profile = bmp(embedded, rows[7].profile, false);
+    short_profile.pop_back();
+    CHECK(trouble_with(short_profile) == other("its colour profile"));
 }
 
 TEST_CASE("texture: a photograph stands upright, as its EXIF segment says") {
@@ -932,10 +991,11 @@ TEST_CASE("texture: BMP files from the top, of few colours, cut off and compress
     CHECK(trouble_with(Bytes(whole.begin(), whole.end() - 3)).empty());
     CHECK(trouble_with(bmp(1, std::numeric_limits<int>::min(), 24, {}, {}))
               .find("a has 1 x 2147483648") == 0);
-    // Two bits for a pixel, and a header of 64 bytes.
+    // Two bits for a pixel, no palette, and a header of 64 bytes.
     const std::string rare =
         "a is a BMP file that is damaged or of a rare kind; save it as PNG.";
     CHECK(trouble_with(bmp(4, 1, 2, two, {0, 0, 0, 0})) == rare);
+    CHECK(trouble_with(bmp(4, 1, 8, {}, {0, 1, 2, 3})) == rare);
     Bytes os2 = whole;
     os2[14] = 64;
     CHECK(trouble_with(os2) == rare);

@@ -6,8 +6,8 @@ ljus_break_it(NAME exr-window HEADER io/exr.hpp TEST exr
 
 # A channel alone is red.
 ljus_break_it(NAME exr-grey HEADER io/exr.hpp TEST exr
-    FROM "for (Rgb& color : layer.image.pixels) color = Rgb{color.x};"
-    TO   ""
+    FROM "for (Rgb& color : image.pixels) color = Rgb{color.x};"
+    TO   "{}"
     CASES "exr: several parts*")
 
 # A channel with half of the rows is read as one that has all.
@@ -30,9 +30,27 @@ ljus_break_it(NAME exr-two-names HEADER io/exr.hpp TEST exr
 
 # The colours of other primaries are taken for those of sRGB.
 ljus_break_it(NAME exr-primaries HEADER io/exr.hpp TEST exr
-    FROM "reader.require_srgb(found->part);"
-    TO   ";"
-    CASES "exr: other primaries*")
+    FROM "if (!matrix)"
+    TO   "return glm::dmat3{1}; if (!matrix)"
+    CASES "exr: colours of other primaries*")
+
+# The faces of a cube are taken for the rows of a sky.
+ljus_break_it(NAME exr-cube HEADER io/exr.hpp TEST exr
+    FROM "kind == EXR_ENVMAP_CUBE"
+    TO   "false"
+    CASES "exr: colours of other primaries*")
+
+# A chunk that is stored as it is is unpacked.
+ljus_break_it(NAME exr-stored HEADER io/exr.hpp TEST exr
+    FROM "if (chunk.packed_size == chunk.unpacked_size)"
+    TO   "if (false)"
+    CASES "exr: what another library*")
+
+# A part that is stored of a picture is taken for the whole of it.
+ljus_break_it(NAME exr-display-window HEADER io/exr.hpp TEST exr
+    FROM "if (window == shown) continue;"
+    TO   "continue;"
+    CASES "exr: several parts*")
 
 # The colours beside a luminance are lost.
 ljus_break_it(NAME exr-chroma HEADER io/exr.hpp TEST exr

@@ -115,9 +115,9 @@ ljus_break_it(NAME texture-edge-size HEADER image/texture.hpp TEST texture
     CASES "texture: fields? edges? colours*")
 
 # The gamma of a PNG file is passed over.
-ljus_break_it(NAME png-gamma HEADER io/load_image.hpp TEST texture
-    FROM "if (png) picture.gamma = png_gamma(bytes);"
-    TO   ""
+ljus_break_it(NAME png-gamma HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "colors.decode_by_gamma(1 / gamma);"
+    TO   "{}"
     CASES "texture: a PNG file of another kind*")
 
 # A photograph that was taken upright lies.
@@ -206,30 +206,40 @@ ljus_break_it(NAME bmp-palette HEADER io/load_image.hpp TEST texture
 
 # The brightness of an HDR picture is taken for that of a plain one.
 ljus_break_it(NAME png-cicp HEADER io/detail/picture_colors.hpp TEST texture
-    FROM "byte_at(file, by_number + 1) == 13 &&"
+    FROM "(curve != 8 && curve != 13) ||"
     TO   ""
     CASES "texture: a PNG file of another kind*")
 
 # The colours of a screen or a camera are taken for those of sRGB.
 ljus_break_it(NAME profile-primaries HEADER io/detail/picture_colors.hpp TEST texture
-    FROM "- xyz[k]) < 0.01"
-    TO   "- xyz[k]) < 9"
+    FROM "if (rgb)
+            colors.matrix ="
+    TO   "if (rgb && false)
+            colors.matrix ="
     CASES "texture: colours of other profiles*")
 
-# So are colours that are linear.
+# A part of a curve's formula is forgotten.
 ljus_break_it(NAME profile-curve HEADER io/detail/picture_colors.hpp TEST texture
-    FROM "- srgb_decode(x)) < 0.01"
-    TO   "- srgb_decode(x)) < 9"
+    FROM "(kind == 2 ? c : e)"
+    TO   "e"
+    CASES "texture: colours of other profiles*")
+
+# A profile of tables gives a black picture.
+ljus_break_it(NAME profile-tables HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "!(values.front() < values.back())"
+    TO   "values.empty()"
     CASES "texture: colours of other profiles*")
 
 # The primaries of a PNG file without a profile are passed over.
 ljus_break_it(NAME png-primaries HEADER io/detail/picture_colors.hpp TEST texture
-    FROM "srgb != 0 || primaries == 0"
-    TO   "true"
+    FROM "k < xy.size() && primaries != 0"
+    TO   "k < xy.size() && false"
     CASES "texture: colours of other profiles*")
 
-# A normal map is refused for its profile, which says nothing of its numbers.
+# The numbers of a normal map are changed by its profile, which says nothing of them.
 ljus_break_it(NAME profile-numbers HEADER io/load_image.hpp TEST texture
-    FROM "if (colors && !says.empty())"
-    TO   "if (!says.empty())"
+    FROM "    if (colors)
+        picture.colors ="
+    TO   "    if (colors || wanted == 3)
+        picture.colors ="
     CASES "texture: colours of other profiles*")

@@ -3,8 +3,6 @@
 /// \file ljus/image/color.hpp
 /// \brief Converts linear light to the 256 levels of a screen by the sRGB curve.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 
@@ -50,20 +48,5 @@ template <std::floating_point T>
 }
 
 /// \}
-
-namespace detail {
-
-/// Whether primaries, given as (x, y) of red, green and blue, are approximately those
-/// of sRGB. The usual primaries of HDR files differ from these by 0.01. The white point
-/// is not compared.
-template <typename Numbers>
-[[nodiscard]] bool are_srgb_primaries(const Numbers& numbers) {
-    constexpr std::array<double, 6> srgb{0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
-    return numbers.size() >= srgb.size() &&
-           std::equal(srgb.begin(), srgb.end(), numbers.begin(),
-                      [](double a, double b) { return std::abs(a - b) < 0.02; });
-}
-
-} // namespace detail
 
 } // namespace ljus

@@ -21,9 +21,9 @@
 
 #include <glm/packing.hpp>
 
-#include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/picture_size.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -125,16 +125,14 @@ public:
         throw std::runtime_error(join({shown_path(path_), " ", why, "."}));
     }
 
-    // Refuses a part that names other primaries than those of sRGB.
-    void require_srgb(int part) const {
-        exr_attr_chromaticities_t is{};
-        if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
-            EXR_ERR_SUCCESS)
-            return;
-        if (!are_srgb_primaries(std::array{is.red_x, is.red_y, is.green_x, is.green_y,
-                                           is.blue_x, is.blue_y}))
-            refuse("has other primaries than those of sRGB, as its chromaticities say; "
-                   "convert it to them");
+    // Refuses a cube map, which would be taken for a sky by latitude and longitude.
+    void require_no_cube(int part) const {
+        exr_envmap_t kind{};
+        if (exr_attr_get_envmap(file_.context, part, "envmap", &kind) ==
+                EXR_ERR_SUCCESS &&
+            kind == EXR_ENVMAP_CUBE)
+            refuse("has the six faces of a cube, as its attribute envmap says; convert "
+                   "it to latitude and longitude, for example by 'exrenvmap -l'");
     }
 
     // Refuses a luminance that has colours beside it, which would be lost.
@@ -153,15 +151,15 @@ public:
         std::vector<LayerT<float>> result;
         long long pixels = 0;
         for (const ExrLayer& layer : wanted) {
-            const Window window = window_of(layer.part);
-            const long long room = most - pixels;
-            if (window.width > room / window.height)
-                refuse(join({"has layers of ", to_text(window.width), " x ",
-                             to_text(window.height), " pixels, ",
+            const Window window = window_of(layer.part), shown = shown_of(layer.part);
+            const Window& larger = window.size() > shown.size() ? window : shown;
+            if (larger.size() > most - pixels)
+                refuse(join({"has layers of ", to_text(larger.width), " x ",
+                             to_text(larger.height), " pixels, ",
                              to_text(static_cast<long long>(wanted.size())),
                              " of them are read; there must be at most ", to_text(most),
                              " pixels in all of them"}));
-            pixels += window.width * window.height;
+            pixels += larger.size();
             // The divisor is the largest number of pixels per byte. ZIP packs up to
             // 1032 bytes into one. DWA stores one number for 64 equal ones.
             exr_compression_t method{};
@@ -169,8 +167,7 @@ public:
                     "in its header");
             const bool dwa =
                 method == EXR_COMPRESSION_DWAA || method == EXR_COMPRESSION_DWAB;
-            if (std::size_t(window.width * window.height) / (dwa ? 65536 : 1024) >
-                bytes_.size())
+            if (std::size_t(window.size()) / (dwa ? 65536 : 1024) > bytes_.size())
                 refuse("is damaged: it ends in the middle of its pixels");
         }
         for (const ExrLayer& layer : wanted) {
@@ -181,16 +178,37 @@ public:
         int parts = 0;
         require(exr_get_count(file_.context, &parts), "in its header");
         for (int part = 0; part < parts; ++part) decode_part(part, wanted, result);
-        for (LayerT<float>& layer : result)
-            if (layer.channels.size() == 1)
-                for (Rgb& color : layer.image.pixels) color = Rgb{color.x};
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            Image& image = result[i].image;
+            if (wanted[i].channels.size() == 1)
+                for (Rgb& color : image.pixels) color = Rgb{color.x};
+            else if (wanted[i].channels[0] == "R")
+                convert(image.pixels, matrix_of(wanted[i].part),
+                        std::numeric_limits<float>::infinity());
+            const Window window = window_of(wanted[i].part);
+            const Window shown = shown_of(wanted[i].part);
+            if (window == shown) continue;
+            Image whole = make_image(int(shown.width), int(shown.height));
+            for (int y = 0; y < whole.height; ++y)
+                for (int x = 0; x < whole.width; ++x) {
+                    const long long column = x + shown.x - window.x;
+                    const long long row = y + shown.y - window.y;
+                    if (column >= 0 && column < window.width && row >= 0 &&
+                        row < window.height)
+                        pixel(whole, x, y) = pixel(image, int(column), int(row));
+                }
+            image = std::move(whole);
+        }
         return result;
     }
 
 private:
-    // The rectangle of pixels that a part stores, its data window.
+    // A rectangle of pixels: the data window of a part is stored, its display window is
+    // the picture.
     struct Window {
         long long x = 0, y = 0, width = 0, height = 0;
+        [[nodiscard]] long long size() const { return width * height; }
+        bool operator==(const Window&) const = default;
     };
 
     struct Decoder {
@@ -212,9 +230,32 @@ private:
             {"is damaged, or not an EXR file that can be read: ", why, ", ", where}));
     }
 
+    // Converts the colours of a part into sRGB.
+    [[nodiscard]] glm::dmat3 matrix_of(int part) const {
+        exr_attr_chromaticities_t is{};
+        if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
+            EXR_ERR_SUCCESS)
+            return glm::dmat3{1};
+        const auto matrix =
+            to_srgb(Primaries{is.red_x, is.red_y, is.green_x, is.green_y, is.blue_x,
+                              is.blue_y, is.white_x, is.white_y});
+        if (!matrix)
+            refuse("has chromaticities of which red, green and blue together are not "
+                   "white");
+        return *matrix;
+    }
+
     [[nodiscard]] Window window_of(int part) const {
         exr_attr_box2i_t box{};
         require(exr_get_data_window(file_.context, part, &box), "in its header");
+        return window_of(box);
+    }
+    [[nodiscard]] Window shown_of(int part) const {
+        exr_attr_box2i_t box{};
+        require(exr_get_display_window(file_.context, part, &box), "in its header");
+        return window_of(box);
+    }
+    [[nodiscard]] Window window_of(const exr_attr_box2i_t& box) const {
         const Window window{box.min.x, box.min.y,
                             static_cast<long long>(box.max.x) - box.min.x + 1,
                             static_cast<long long>(box.max.y) - box.min.y + 1};
@@ -310,6 +351,10 @@ private:
                 exr_decoding_choose_default_routines(file_.context, part, &pipeline),
                 where);
             pipeline.unpack_and_convert_fn = nullptr; // that of OpenEXR 3.1 is unsafe
+            // A chunk that no method makes smaller is stored as it is. OpenEXR 3.1
+            // would unpack it by B44.
+            if (chunk.packed_size == chunk.unpacked_size)
+                pipeline.decompress_fn = nullptr;
             require(exr_decoding_run(file_.context, part, &pipeline), where);
             if (!unpack(pipeline, wanted, layers, x, y))
                 require(EXR_ERR_CORRUPT_CHUNK, where);
@@ -525,7 +570,9 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 /// \return The layers in the order of the parts. Channels R, G, B or X, Y, Z with the
 ///         same layer name form a layer; every other channel is a layer of its own. If
 ///         the file has several parts, a channel without a layer name has the name of
-///         its part. A layer has the pixels of its part's data window.
+///         its part. A layer has the pixels of its part's display window; those that
+///         the file does not store are 0. Colours of other primaries than those of sRGB
+///         are converted; their channels are at least 0, also outside of sRGB's gamut.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is
 ///         damaged, has no layer, or has more than 2^27 pixels in all layers together.
 /// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
@@ -541,10 +588,10 @@ template <std::floating_point T = float>
 
 /// Loads one layer of an EXR file, such as "albedo". With an empty name, loads the
 /// picture itself: in colour from channels R, G and B, or in grey from a channel Y.
-/// \return The pixels of the data window. They may be negative, infinite or NaN.
+/// \return As a layer of load_exr_layers(). Pixels may be negative, infinite or NaN.
 /// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
-///         (the message lists its layers), has other primaries than sRGB, has more than
-///         2^25 pixels, or, for an empty name, has colours beside the luminance Y.
+///         (the message lists its layers), is a cube map, has more than 2^25 pixels,
+///         or, for an empty name, has colours beside the luminance Y.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_exr(const std::string& path,
                                  const std::string& layer = "") {
@@ -569,7 +616,7 @@ template <std::floating_point T = float>
              layer.empty() ? ": load one by its name, or save it as R, G and B" : ""}));
     if (layer.empty() && found->channels.size() == 1)
         reader.require_no_chroma(found->part);
-    reader.require_srgb(found->part);
+    reader.require_no_cube(found->part);
     auto layers = reader.decode({*found}, detail::max_image_pixels);
     return detail::layer_in<T>(std::move(layers.front())).image;
 }

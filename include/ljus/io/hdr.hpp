@@ -8,13 +8,15 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/byte_reader.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus {
@@ -155,14 +157,16 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 /// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded, by
 /// today's coding or by that from before 1991.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
-///         header.
+///         header. Colours of other primaries than those of sRGB are converted; their
+///         channels are at least 0, also outside of sRGB's gamut.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
-///         an unsupported kind (XYZE, other primaries than those of sRGB, a gamma,
-///         another pixel order), or is shorter or longer than its header says.
+///         an unsupported kind (XYZE, a gamma, another pixel order), or is shorter or
+///         longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
     RgbT<double> exposure{1.0};
+    std::optional<glm::dmat3> primaries{glm::dmat3{1}};
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         const std::string says = "its header says " + shown(line);
         line.erase(line.find_last_not_of(" \t") + 1);
@@ -173,8 +177,8 @@ template <std::floating_point T = float>
         if (line.starts_with("PRIMARIES=")) {
             const auto numbers = detail::header_numbers(line, 10);
             const std::vector<double> unknown(8); // so written by image editors
-            if (numbers != unknown && !detail::are_srgb_primaries(numbers))
-                reader.fail(says + "; only the primaries of sRGB are supported");
+            if (numbers != unknown) primaries = detail::to_srgb(numbers);
+            if (!primaries) reader.fail(says + ", which are no primaries and white");
         }
         if (line.starts_with("GAMMA=") &&
             detail::header_numbers(line, 6) != std::vector<double>{1.0})
@@ -221,6 +225,7 @@ template <std::floating_point T = float>
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +
                     " bytes more than its pixels require");
+    detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());
     return image;
 }
 

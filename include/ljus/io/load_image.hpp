@@ -126,7 +126,7 @@ inline constexpr int max_image_side = 1 << 24;
 struct DecodedBytes {
     int width = 0, height = 0;
     bool has_alpha = false;
-    double gamma = 0;    // a byte is light to this power; 0: sRGB
+    ByteColors colors{};
     int orientation = 1; // by EXIF
     std::unique_ptr<stbi_uc, void (*)(void*)> pixels{nullptr, stbi_image_free};
 };
@@ -143,7 +143,7 @@ inline Bytes unpack_profile(const unsigned char* data, std::size_t size) {
 }
 
 // Decodes a picture into `wanted` bytes per pixel, and calls refuse(why) for an error.
-// `colors` says whether the bytes are used as sRGB colours. For `others` see
+// `colors` says whether the bytes are used as colours. For `others` see
 // decode_image().
 template <typename Refuse>
 DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool colors,
@@ -163,11 +163,13 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     if (png && stands_at(bytes, 12, "CgBI"))
         refuse("is a PNG file of Apple's own kind (CgBI), which has red and blue "
                "exchanged; save it as plain PNG");
-    const std::string says = png    ? png_other_colors(bytes, unpack_profile)
-                             : jpeg ? jpeg_other_colors(bytes)
-                                    : bmp_other_colors(bytes);
-    if (colors && !says.empty())
-        refuse(join({"has other colours than those of sRGB, as ", says,
+    DecodedBytes picture;
+    if (colors)
+        picture.colors = png    ? png_colors(bytes, unpack_profile)
+                         : jpeg ? jpeg_colors(bytes)
+                                : bmp_colors(bytes);
+    if (!picture.colors.matrix)
+        refuse(join({"has colours of a kind that is not read, as ", picture.colors.says,
                      " says; save it as sRGB"}));
     const BmpHead bmp(bytes);
     const bool is_bmp = !png && !jpeg;
@@ -193,8 +195,6 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     // stb_image would call a PNG file damaged that is only too large.
     if (png && stands_at(bytes, 12, "IHDR"))
         require_size(png_number(bytes, 16), png_number(bytes, 20));
-    DecodedBytes picture;
-    if (png) picture.gamma = png_gamma(bytes);
     if (png) picture.orientation = png_orientation(bytes);
     if (jpeg) picture.orientation = jpeg_orientation(bytes);
     const Bytes filled = png      ? with_whole_palette(bytes)
@@ -237,13 +237,15 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// \param others  The number of pixels in all pictures that the caller keeps already.
 ///                With the new picture, there may be at most 2^25 pixels in all.
 /// \param content What is read from the picture.
-/// \return Colours or numbers in [0, 1]. The gAMA chunk of a PNG file is used if the
-///         file has neither an sRGB chunk nor a profile. The picture is turned upright
-///         by its EXIF orientation. A pixel whose index is beyond the end of the
-///         palette is black.
+/// \return Colours or numbers in [0, 1]. Colours that the file declares in another way
+///         than by sRGB are converted: by a colour profile of curves and a matrix, such
+///         as Display P3 or grey ones, or by the primaries and the gamma of its header.
+///         Channels of colours outside of sRGB's gamut are limited to 0 and 1. The
+///         picture is turned upright by its EXIF orientation. A pixel whose index is
+///         beyond the end of the palette is black.
 /// \throws std::runtime_error  with path and reason, if the file is not a picture or is
-///         too large, or if colours are read from a file that declares a colour space
-///         other than sRGB; std::bad_alloc if there is not enough memory.
+///         too large, or if colours are read whose profile consists of tables or is
+///         neither for RGB nor for grey; std::bad_alloc if there is not enough memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,
@@ -259,14 +261,6 @@ template <std::floating_point T = float>
     const int bytes_each = opacity ? 4 : 3;
     const detail::DecodedBytes picture =
         detail::decode_bytes(bytes, others, bytes_each, colors, refuse);
-    std::array<T, 256> linear{};
-    for (std::size_t i = 0; i < 256; ++i) {
-        const double byte = static_cast<double>(i) / 255.0;
-        linear[i] =
-            static_cast<T>(!colors             ? byte
-                           : picture.gamma > 0 ? std::pow(byte, 1 / picture.gamma)
-                                               : srgb_decode(byte));
-    }
     // The bytes of a pixel that become red, green and blue.
     const bool red = content == PictureContent::mask && !picture.has_alpha;
     const std::array<int, 3> from_byte = red       ? std::array{0, 0, 0}
@@ -290,9 +284,13 @@ template <std::floating_point T = float>
                 std::size_t(bytes_each) *
                     (std::size_t(row) * std::size_t(picture.width) +
                      std::size_t(column));
-            for (int k = 0; k < 3; ++k)
-                pixel(image, x, y)[k] = linear[from[from_byte[std::size_t(k)]]];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const stbi_uc byte = from[from_byte[k]];
+                pixel(image, x, y)[int(k)] =
+                    T(colors ? picture.colors.linear[k][byte] : byte / 255.0);
+            }
         }
+    detail::convert(image.pixels, *picture.colors.matrix, T(1));
     return image;
 #else
     (void)bytes;

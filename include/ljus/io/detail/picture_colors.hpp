@@ -1,44 +1,83 @@
 #pragma once
 
 /// \file ljus/io/detail/picture_colors.hpp
-/// \brief Finds out whether a PNG, JPEG or BMP file declares a colour space other than
-/// sRGB.
+/// \brief Finds out how the bytes of a PNG, JPEG or BMP file become linear sRGB.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ljus/image/color.hpp"
 #include "ljus/io/detail/picture_damage.hpp"
+#include "ljus/io/detail/srgb_primaries.hpp"
 #include "ljus/io/file.hpp"
 
 namespace ljus::detail {
+
+constexpr Primaries p3_primaries{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
+constexpr Primaries adobe_primaries{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.329};
+constexpr Primaries rec2020_primaries{0.708, 0.292, 0.17,   0.797,
+                                      0.131, 0.046, 0.3127, 0.329};
+
+// How the bytes of a picture become linear sRGB: by a curve for each channel, then by a
+// matrix.
+struct ByteColors {
+    std::string says{}; // what declares the colours, for a message
+    std::optional<glm::dmat3> matrix{glm::dmat3{1}}; // none if they are not read
+    std::array<std::array<double, 256>, 3> linear{};
+
+    ByteColors() {
+        decode_by([](double x, std::size_t) { return srgb_decode(x); });
+    }
+    // Lets curve(x, k) be the linear light of the encoded value x of channel k.
+    template <typename Curve>
+    void decode_by(Curve curve) {
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 256; ++i)
+                linear[k][i] = std::clamp(curve(double(i) / 255, k), 0.0, 1.0);
+    }
+    void decode_by_gamma(double gamma) {
+        decode_by([&](double x, std::size_t) { return std::pow(x, gamma); });
+    }
+};
 
 // A colour profile (ICC.1:2022): a header of 128 bytes, then a list of tags.
 class ColorProfile {
 public:
     explicit ColorProfile(const Bytes& bytes) : bytes_(bytes) {}
 
-    // Whether the colours are approximately those of sRGB. A gamma of 2.2 counts as
-    // sRGB.
-    [[nodiscard]] bool is_srgb() const {
-        if (!stands_at(bytes_, 36, "acsp")) return false;
-        if (stands_at(bytes_, 16, "GRAY")) return has_srgb_curve("kTRC");
-        if (!stands_at(bytes_, 16, "RGB ")) return false;
-        // A profile without primaries consists of tables; only its name is checked.
-        if (tag("rXYZ") == 0) return name().find("sRGB") != std::string::npos;
-        // The primaries of sRGB, adapted to D50, the white of profiles.
-        return has_primary("rXYZ", {0.4361, 0.2225, 0.0139}) &&
-               has_primary("gXYZ", {0.3851, 0.7169, 0.0971}) &&
-               has_primary("bXYZ", {0.1431, 0.0606, 0.7141}) &&
-               has_srgb_curve("rTRC") && has_srgb_curve("gTRC") &&
-               has_srgb_curve("bTRC");
+    // The colours of a profile that consists of curves and, but for grey, a matrix. Of
+    // those that consist of tables only sRGB is read, known by its name.
+    [[nodiscard]] ByteColors colors() const {
+        ByteColors colors;
+        const std::string known = shown(name());
+        colors.says = known.empty() ? "its colour profile"
+                                    : join({"its colour profile '", known, "'"});
+        const bool valid = stands_at(bytes_, 36, "acsp");
+        const bool grey = valid && stands_at(bytes_, 16, "GRAYXYZ ");
+        const bool rgb = valid && stands_at(bytes_, 16, "RGB ");
+        if (rgb && tag("rXYZ") == 0 && known.find("sRGB") != std::string::npos)
+            return colors;
+        const std::array curves =
+            grey ? std::array{tag("kTRC"), tag("kTRC"), tag("kTRC")}
+                 : std::array{tag("rTRC"), tag("gTRC"), tag("bTRC")};
+        colors.decode_by([&](double x, std::size_t k) { return decode(curves[k], x); });
+        if (rgb)
+            colors.matrix =
+                to_srgb(glm::dmat3{column("rXYZ"), column("gXYZ"), column("bXYZ")});
+        for (const auto& values : colors.linear)
+            if (!(grey || rgb) || !(values.front() < values.back()))
+                colors.matrix.reset();
+        return colors;
     }
 
+private:
     // The name of the profile, up to its first character that is not ASCII.
     [[nodiscard]] std::string name() const {
         const std::size_t at = tag("desc");
@@ -56,7 +95,6 @@ public:
         return text;
     }
 
-private:
     [[nodiscard]] std::uint32_t number(std::size_t at, std::size_t bytes) const {
         return static_cast<std::uint32_t>(number_in(bytes_, at, bytes));
     }
@@ -74,18 +112,9 @@ private:
         return 0;
     }
 
-    [[nodiscard]] bool has_primary(std::string_view name,
-                                   const std::array<double, 3>& xyz) const {
+    [[nodiscard]] glm::dvec3 column(std::string_view name) const {
         const std::size_t at = tag(name);
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(std::abs(fixed(at + 8 + 4 * k) - xyz[k]) < 0.01)) return false;
-        return true;
-    }
-
-    [[nodiscard]] bool has_srgb_curve(std::string_view name) const {
-        for (const double x : {0.25, 0.5, 0.75})
-            if (!(std::abs(decode(tag(name), x) - srgb_decode(x)) < 0.01)) return false;
-        return true;
+        return {fixed(at + 8), fixed(at + 12), fixed(at + 16)};
     }
 
     // The linear light that a curve gives for an encoded value; 0 if the type of the
@@ -100,7 +129,7 @@ private:
                 p[k] = fixed(curve + 12 + 4 * k);
             const auto [g, a, b, c, d, e, f] = p;
             if (kind >= 3 && x < d) return c * x + f;
-            return std::pow(a * x + b, g) + (kind == 2 ? c : e);
+            return std::pow(std::max(a * x + b, 0.0), g) + (kind == 2 ? c : e);
         }
         if (!stands_at(bytes_, curve, "curv")) return 0;
         const std::size_t entries = number(curve + 8, 4);
@@ -117,56 +146,59 @@ private:
     const Bytes& bytes_;
 };
 
-// The words of a message for a profile whose colours are not those of sRGB; empty for
-// sRGB.
-inline std::string other_profile(const Bytes& bytes) {
-    const ColorProfile profile(bytes);
-    if (profile.is_srgb()) return {};
-    const std::string name = shown(profile.name());
-    return name.empty() ? "its colour profile"
-                        : join({"its colour profile '", name, "'"});
-}
-
-// Names the chunk of a PNG file that declares a colour space other than sRGB; empty
-// if there is none. If several chunks describe colours, cICP counts before iCCP, sRGB
-// and cHRM (PNG 3, section 4.3). inflate(data, size) unpacks a profile.
+// The colours of a PNG file. If several chunks describe them, cICP counts before iCCP,
+// sRGB, and gAMA with cHRM (PNG 3, section 4.3). inflate(data, size) unpacks a profile.
 template <typename Inflate>
-std::string png_other_colors(const Bytes& file, Inflate inflate) {
+ByteColors png_colors(const Bytes& file, Inflate inflate) {
     std::size_t by_number = 0, profile = 0, profile_size = 0, srgb = 0, primaries = 0;
+    double gamma = 0;
     find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
         if (name == "cICP") by_number = at;
         if (name == "iCCP") profile = at, profile_size = size;
         if (name == "sRGB") srgb = at;
         if (name == "cHRM" && size == 32) primaries = at;
+        if (name == "gAMA" && size == 4) gamma = png_number(file, at) / 1e5;
         return name == "IDAT";
     });
+    ByteColors colors;
     if (by_number != 0) {
-        // The bytes are the numbers of primaries and curve, a matrix, and full range.
-        const bool is_srgb = byte_at(file, by_number) == 1 &&
-                             byte_at(file, by_number + 1) == 13 &&
-                             byte_at(file, by_number + 3) == 1;
-        return is_srgb ? "" : "its cICP chunk";
-    }
-    if (profile != 0) {
+        // The numbers of primaries, curve and matrix, and 1 for the full range (ITU-T
+        // H.273). Read are the primaries of sRGB, Rec. 2020 and Display P3, and the
+        // curve of sRGB and the linear one.
+        colors.says = "its cICP chunk";
+        const std::size_t space = byte_at(file, by_number);
+        const std::size_t curve = byte_at(file, by_number + 1);
+        if (curve == 8) colors.decode_by_gamma(1);
+        if (space == 9) colors.matrix = to_srgb(rec2020_primaries);
+        if (space == 12) colors.matrix = to_srgb(p3_primaries);
+        if ((space != 1 && space != 9 && space != 12) || (curve != 8 && curve != 13) ||
+            png_number(file, by_number) % 65536 != 1)
+            colors.matrix.reset();
+    } else if (profile != 0) {
         // The profile follows its name and one byte for the method of packing.
         std::size_t name = 0;
         while (name < profile_size && file[profile + name] != 0) ++name;
         const std::size_t head = name + 2;
-        return other_profile(head < profile_size ? inflate(file.data() + profile + head,
-                                                           profile_size - head)
-                                                 : Bytes{});
+        const Bytes bytes = head < profile_size ? inflate(file.data() + profile + head,
+                                                          profile_size - head)
+                                                : Bytes{};
+        return ColorProfile(bytes).colors();
+    } else if (srgb == 0) {
+        // 1/2.2 means sRGB in files without an sRGB chunk.
+        if (gamma > 0 && std::abs(gamma - 0.45455) >= 0.005)
+            colors.decode_by_gamma(1 / gamma);
+        Primaries xy = srgb_primaries; // the file begins with white
+        for (std::size_t k = 0; k < xy.size() && primaries != 0; ++k)
+            xy[(k + 6) % 8] = png_number(file, primaries + 4 * k) / 1e5;
+        colors.matrix = to_srgb(xy);
+        colors.says = "its cHRM chunk";
     }
-    if (srgb != 0 || primaries == 0) return {};
-    std::array<double, 6> xy{};
-    for (std::size_t k = 0; k < xy.size(); ++k) // after the white point
-        xy[k] = png_number(file, primaries + 8 + 4 * k) / 1e5;
-    return are_srgb_primaries(xy) ? "" : "its cHRM chunk";
+    return colors;
 }
 
-// Names the part of a JPEG file that declares a colour space other than sRGB; empty
-// if there is none. A profile is cut into numbered segments. Cameras declare Adobe RGB
-// in their EXIF data only.
-inline std::string jpeg_other_colors(const Bytes& file) {
+// The colours of a JPEG file. A profile is cut into numbered segments. Cameras declare
+// Adobe RGB in their EXIF data only.
+inline ByteColors jpeg_colors(const Bytes& file) {
     std::array<Bytes, 256> parts;
     bool adobe = false;
     constexpr std::string_view profile{"ICC_PROFILE\0", 12};
@@ -184,40 +216,51 @@ inline std::string jpeg_other_colors(const Bytes& file) {
     });
     Bytes whole;
     for (const Bytes& part : parts) whole.insert(whole.end(), part.begin(), part.end());
-    if (!whole.empty()) return other_profile(whole);
-    return adobe ? "its EXIF data" : "";
+    if (!whole.empty()) return ColorProfile(whole).colors();
+    ByteColors colors;
+    if (!adobe) return colors;
+    colors.decode_by_gamma(563 / 256.0);
+    colors.matrix = to_srgb(adobe_primaries);
+    return colors;
 }
 
-// Names the part of a BMP file that declares a colour space other than sRGB; empty if
-// there is none. The header may give primaries and a gamma, or a profile.
-inline std::string bmp_other_colors(const Bytes& file) {
+// The colours of a BMP file. The header may give primaries and a gamma, or a profile.
+inline ByteColors bmp_colors(const Bytes& file) {
     const std::size_t head = BmpHead(file).size;
     const std::size_t kind = bmp_number(file, 70, 4);
-    if (head < 108) return {};
+    ByteColors colors;
+    if (head < 108) return colors;
     if (kind == 0x4d424544u) { // MBED
         const std::size_t at = 14 + bmp_number(file, 126, 4);
         const std::size_t size = bmp_number(file, 130, 4);
-        if (head < 124 || at > file.size() || size > file.size() - at)
-            return "its damaged colour profile";
-        const auto first = file.begin() + static_cast<std::ptrdiff_t>(at);
-        return other_profile(Bytes(first, first + static_cast<std::ptrdiff_t>(size)));
+        const bool whole = head >= 124 && at <= file.size() && size <= file.size() - at;
+        const auto first = file.begin() + static_cast<std::ptrdiff_t>(whole ? at : 0);
+        const auto count = static_cast<std::ptrdiff_t>(whole ? size : 0);
+        return ColorProfile(Bytes(first, first + count)).colors();
     }
-    if (kind == 0x4c494e4bu) return "the colour profile that it names"; // LINK
-    if (kind != 0) return {}; // sRGB, or the default of Windows
-    std::array<double, 9> xyz{};
-    for (std::size_t k = 0; k < xyz.size(); ++k)
-        xyz[k] = static_cast<double>(bmp_number(file, 74 + 4 * k, 4));
-    std::array<double, 6> xy{};
+    if (kind == 0x4c494e4bu) { // LINK
+        colors.says = "the colour profile that it names";
+        colors.matrix.reset();
+    }
+    if (kind != 0) return colors; // sRGB, or the default of Windows
+    Primaries xy = srgb_primaries;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double sum = xyz[3 * k] + xyz[3 * k + 1] + xyz[3 * k + 2];
-        if (sum == 0) return {}; // most programs leave them 0
-        xy[2 * k] = xyz[3 * k] / sum;
-        xy[2 * k + 1] = xyz[3 * k + 1] / sum;
+        const auto number = [&](std::size_t i) {
+            return static_cast<double>(bmp_number(file, 74 + 12 * k + 4 * i, 4));
+        };
+        const double sum = number(0) + number(1) + number(2);
+        if (sum == 0) return colors; // most programs leave them 0
+        xy[2 * k] = number(0) / sum;
+        xy[2 * k + 1] = number(1) / sum;
     }
-    const double gamma = static_cast<double>(bmp_number(file, 110, 4)) / 65536;
-    const bool is_srgb =
-        are_srgb_primaries(xy) && (gamma == 0 || std::abs(gamma - 2.2) < 0.05);
-    return is_srgb ? "" : "its header";
+    // Some programs write 2.2 and others 1/2.2, which means sRGB.
+    const double number = static_cast<double>(bmp_number(file, 110, 4)) / 65536;
+    const double gamma = number < 1 ? 1 / number : number; // infinite without one
+    if (std::isfinite(gamma) && std::abs(gamma - 2.2) >= 0.05)
+        colors.decode_by_gamma(gamma);
+    colors.matrix = to_srgb(xy);
+    colors.says = "its header";
+    return colors;
 }
 
 } // namespace ljus::detail

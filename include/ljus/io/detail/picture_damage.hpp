@@ -88,22 +88,6 @@ inline const char* png_trouble(const Bytes& file) {
     return trouble;
 }
 
-// The exponent 1/gamma of the gAMA chunk of a PNG file; 0 without such a chunk, or if a
-// chunk sRGB, iCCP or cICP overrides it.
-inline double png_gamma(const Bytes& file) {
-    double gamma = 0;
-    find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
-        const bool named = name == "sRGB" || name == "iCCP" || name == "cICP";
-        if (named)
-            gamma = 0;
-        else if (name == "gAMA" && size == 4)
-            gamma = png_number(file, at) / 1e5;
-        return named || name == "IDAT";
-    });
-    // 1/2.2 means sRGB in files without an sRGB chunk.
-    return std::abs(gamma - 0.45455) < 0.005 ? 0 : gamma;
-}
-
 // A copy of a PNG file whose palette is filled up with black to 256 colours; empty if
 // the file has no palette, or a full one. For a colour beyond the end of a palette,
 // stb_image would read uninitialised memory.
@@ -329,7 +313,7 @@ inline Bytes bmp_with_whole_palette(const Bytes& file) {
     const BmpHead head(file);
     // In files with the oldest header stb_image counts four colours too few.
     const std::size_t full = 14 + head.size + (head.size == 12 ? 3 * 260 : 4 * 256);
-    if (head.bits >= 16 || head.offset < 14 + head.size || head.offset >= full ||
+    if (head.bits >= 16 || head.offset <= 14 + head.size || head.offset >= full ||
         head.offset > file.size())
         return {};
     Bytes whole = file;
