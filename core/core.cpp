@@ -19,3 +19,14 @@
     [[gnu::target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), gnu::flatten]]
 #endif
 #include "ljus/core.hpp"
+#include "ljus/render/irradiance_cache.hpp"
+
+// Programs that include the header of such a search declare it there.
+namespace ljus {
+
+template std::optional<Rgb> interpolate(const IrradianceCache&, const Vec3&,
+                                        const Vec3&, float);
+template std::optional<Rgb> irradiance_at(const IrradiancePoints&, const Vec3&,
+                                          const Vec3&);
+
+} // namespace ljus

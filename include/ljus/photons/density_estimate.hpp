@@ -150,7 +150,7 @@ void set_place(EstimatePlaceT<T>& place, const VertexT<T>& vertex,
 /// \param give      Called as give(place, radiance), in the order of the requests. A
 ///                  request without photons is left out.
 template <std::floating_point T, KernelLike<T> K>
-void estimates_together(
+LJUS_CORE_CLONES void estimates_together(
     const PhotonMapT<T>& map, std::span<const EstimatePlaceT<T>> places,
     const DensityEstimateOf<K>& gather, PhotonKinds kinds, std::uint64_t& gathered,
     BallBlocks& found,

@@ -261,9 +261,9 @@ template <AnyWorld W, std::floating_point T>
 /// \return W/m^2; nothing if there is no such lookup point.
 // [irradiance_at]
 template <std::floating_point T>
-[[nodiscard]] std::optional<RgbT<T>> irradiance_at(const IrradiancePointsT<T>& points,
-                                                   const Vec3T<T>& position,
-                                                   const Vec3T<T>& normal) {
+[[nodiscard]] LJUS_CORE_CLONES std::optional<RgbT<T>>
+irradiance_at(const IrradiancePointsT<T>& points, const Vec3T<T>& position,
+              const Vec3T<T>& normal) {
     const auto like = [&](std::uint32_t i) {
         return glm::dot(points.records[i].normal, normal) > T(0.9) &&
                !detail::leaves_disc(points.tree.point(i) - position, normal,
@@ -278,6 +278,11 @@ template <std::floating_point T>
     return points.records[found[0].index].irradiance;
 }
 // [irradiance_at]
+
+#ifdef LJUS_CORE // defined in ljus::core
+extern template std::optional<Rgb> irradiance_at(const IrradiancePoints&, const Vec3&,
+                                                 const Vec3&);
+#endif
 
 /// \}
 

@@ -53,9 +53,9 @@ template <std::floating_point T>
 /// \return W/m^2; nothing if no point is near enough.
 // [interpolate]
 template <std::floating_point T>
-[[nodiscard]] std::optional<RgbT<T>> interpolate(const IrradianceCacheT<T>& cache,
-                                                 const Vec3T<T>& position,
-                                                 const Vec3T<T>& normal, T reach) {
+[[nodiscard]] LJUS_CORE_CLONES std::optional<RgbT<T>>
+interpolate(const IrradianceCacheT<T>& cache, const Vec3T<T>& position,
+            const Vec3T<T>& normal, T reach) {
     const auto nearest = cache.tree.nearest(position);
     if (!nearest) return std::nullopt;
     const T radius = cache.records[nearest->index].spacing;
@@ -76,6 +76,11 @@ template <std::floating_point T>
     return sum / weights;
 }
 // [interpolate]
+
+#ifdef LJUS_CORE // defined in ljus::core
+extern template std::optional<Rgb> interpolate(const IrradianceCache&, const Vec3&,
+                                               const Vec3&, float);
+#endif
 
 /// The indirect irradiance at a vertex, interpolated between the points of a cache. If
 /// no point is near enough, the irradiance is gathered at the vertex itself, with a

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include "ljus/accel/mesh.hpp"
 #include "ljus/math/random.hpp"
-#include "ljus/photons/irradiance_estimate.hpp"
+#include "ljus/render/irradiance_cache.hpp"
 
 using namespace ljus;
 
@@ -16,6 +17,9 @@ std::uint64_t found = 14695981039346656037u; // FNV-1a
 
 void add(float value) {
     found = (found ^ std::bit_cast<std::uint32_t>(value)) * 1099511628211u;
+}
+void add(const Rgb& color) {
+    for (const float channel : {color.r, color.g, color.b}) add(channel);
 }
 
 Mesh bumpy_ball() {
@@ -82,10 +86,35 @@ int main() {
             const Rgb e = estimate_irradiance(
                 map, point, point.normal,
                 DensityEstimateSettings{.radius = 0.1f, .nearest = nearest});
-            for (const float channel : {e.r, e.g, e.b}) add(channel);
+            add(e);
             largest = glm::max(largest, e.r);
         }
     }
+
+    // The searches of the preset fast.
+    std::vector<Vec3> places;
+    std::vector<GatheredT<float>> gathered;
+    for (const Photon& photon : photons) {
+        places.push_back(photon.position);
+        gathered.push_back({.irradiance = photon.flux, .distance = 0.05f});
+    }
+    IrradiancePoints points{.tree = KdTree8(places, 1), .records = {}, .radius = 0.1f};
+    for (const std::uint32_t i : points.tree.point_ids())
+        points.records.push_back({photons[i].flux, {0, 0, i % 2 == 0 ? 1.0f : -1.0f}});
+    const auto cache = make_irradiance_cache(places, gathered, {}, 1);
+    std::vector<detail::EstimatePlaceT<float>> asked;
+    for (int i = 0; i < 2'000; ++i) {
+        const Vec3 x = in_cube(), up{0, 0, 1};
+        add(interpolate(cache, {x.x, x.y, 0}, up, 1.0f).value_or(Rgb{-1}));
+        add(irradiance_at(points, {x.x, x.y, 0}, up).value_or(Rgb{-1}));
+        asked.push_back({.center{x.x, x.y, 0}, .normal = up, .from = up, .brdf = x});
+    }
+    std::uint64_t count = 0;
+    detail::BallBlocks room;
+    const auto take = [](const auto&, const Rgb& light) { add(light); };
+    detail::estimates_together<float, Kernel>(
+        map, asked, DensityEstimateSettings{.radius = 0.1f}, light_kinds, count, room,
+        take);
     std::printf("%d hits, irradiance up to %g, all bits %016llx\n", hits,
                 double(largest), static_cast<unsigned long long>(found));
     return hits > 1000 && largest > 0 ? 0 : 1;
