@@ -68,6 +68,12 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     sets.push_back(make("two heaps", [&](std::size_t i) {
         return D{i % 2 == 0 ? 1 : -1, 0, 0};
     }));
+    // 512 points with even gaps say nothing about the others.
+    sets.push_back(make("a sample that is one plane", [&](std::size_t i) {
+        D p = numbers.point<double>(1);
+        p.x = i % std::max<std::size_t>(n / 512, 1) == 0 ? -1 : std::abs(p.x);
+        return p;
+    }));
     return sets;
 }
 
@@ -124,7 +130,7 @@ void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
             radius = T(std::sqrt(distance2(edge, center)));
         }
 
-        const auto all = [](std::uint32_t) { return true; };
+        constexpr ljus::detail::AnyPoint all{};
         const auto some = [](std::uint32_t index) { return index % 3 == 1; };
         const auto expected = brute_force(tree, center, radius, all);
         std::vector<Neighbor> visited;
