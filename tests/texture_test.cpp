@@ -667,6 +667,8 @@ TEST_CASE("texture: colours of other profiles are refused by their name") {
             "'Adobe RGB (1998)'"},
         Row{profile_of("linear sRGB", true, of_srgb, curve_of_gamma(1)),
             "'linear sRGB'"},
+        // 0.75^2.1875 is 0.0104 above sRGB's value.
+        Row{profile_of("2.1875", true, of_srgb, curve_of_gamma(2.1875)), "'2.1875'"},
         Row{profile_of("1.8", true, of_srgb, curve_of_numbers(0, {1.8})), "'1.8'"},
         Row{profile_of("SWOP", false, {}, {}, "CMYK"), "'SWOP'"},
         Row{Bytes(200), ""},
