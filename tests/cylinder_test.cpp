@@ -125,6 +125,15 @@ TEST_CASE_TEMPLATE("cylinder: what is hit is the first crossing along the ray", 
     CHECK(differ < 12);
 }
 
+TEST_CASE("cylinder: one so thin that rounding leaves no normal faces the ray") {
+    // The ray meets the axis exactly, once the distance is rounded.
+    const Cylinder wire{{0, -1, -1e6f}, {0, 2, 0}, 1e-4f};
+    const Ray ray{.direction{0, 0, -1}};
+    const auto hit = intersect(ray, wire);
+    REQUIRE(hit);
+    CHECK(surface_point(wire, ray, *hit).normal == Vec3{0, 0, 1});
+}
+
 TEST_CASE("cylinder: samples are spread evenly, on it and in its bounds") {
     Numbers n;
     for (int k = 0; k < 20; ++k) {

@@ -45,6 +45,12 @@ Real printed(const Real& alpha, const Real& ox, const Real& oy, const Real& oz,
     return d * g2 / (4 * oz * iz);
 }
 
+/// Gloss on a matt ground.
+struct Coat : Glossy {};
+Lobes lobes(const Coat&) {
+    return Lobes::diffuse | Lobes::glossy;
+}
+
 /// The albedo of white by the weights of a grid of samples: smooth in u.
 template <typename T>
 double albedo_by_samples(const GlossyT<T>& m, double degrees, int n = 200) {
@@ -319,4 +325,5 @@ TEST_CASE("glossy: nearly a mirror below a roughness of 0.42") {
     for (const float roughness : {0.01f, 0.1f, 0.41f}) CHECK(nearly(roughness));
     for (const float roughness : {0.43f, 0.6f, 1.0f}) CHECK_FALSE(nearly(roughness));
     CHECK_FALSE(nearly(0)); // which is a mirror
+    CHECK_FALSE(nearly_specular(Coat{{.roughness = 0.1f}}));
 }

@@ -932,11 +932,11 @@ TEST_CASE("load_obj: a report has the first line of each trouble, in any order")
 TEST_CASE("load_obj: the rarer words of a file") {
     const ScratchFolder folder;
     ScratchFolder::write(folder.file("a.mtl"),
-                         "newmtl both\nillum 3\nd 0.25\nnewmtl red\nKd 1 0 0\n");
-    // A tab behind a name; a texture coordinate of one number.
+                         "newmtl a#1\nillum 3\nd 0.25\nnewmtl a#2 # red\nKd 1 0 0\n");
+    // A # within a name, a tab behind it; a texture coordinate of one number.
     const auto loaded =
         read_obj("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25\nvt 0.5\t0.75\n"
-                 "usemtl both\nf 1 2 3\nusemtl red \t\nf 1/1 2/2 3/1\n",
+                 "usemtl a#1\nf 1 2 3\nusemtl a#2 \t\nf 1/1 2/2 3/1\n",
                  folder.file("x.obj"));
     CHECK(loaded.report[MeshTrouble::no_material].count == 0);
     CHECK(loaded.report[MeshTrouble::bad_uv].count == 0);

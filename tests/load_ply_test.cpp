@@ -221,19 +221,24 @@ TEST_CASE("load_ply: faces may stand before the vertices, their colours are name
 }
 
 TEST_CASE("load_ply: behind a header whose lines end in CR, LF is a number") {
-    // A face of ten corners, whose number is that of LF, before its vertices.
-    Bytes bytes =
-        text_bytes("ply\rformat binary_little_endian 1.0\relement face 1\r"
-                   "property list uchar uchar vertex_index\relement vertex 10\r"
-                   "property uchar x\rproperty uchar y\rproperty uchar z\r"
-                   "end_header\r\n");
-    for (unsigned char i = 0; i < 10; ++i) bytes.push_back(i);
-    const int places[10][2]{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0},
-                            {4, 2}, {3, 2}, {2, 2}, {1, 2}, {0, 2}};
-    for (const auto& [x, y] : places)
-        for (const int number : {x, y, 0})
-            bytes.push_back(static_cast<unsigned char>(number));
-    CHECK(area(read_ply(bytes, "x.ply").parts.at(0).mesh) == 8);
+    // Whatever lines end in: a face of ten corners, whose number is that of LF, before
+    // its vertices.
+    for (const char* const end : {"\r", "\r\n", "\n"}) {
+        std::string header;
+        for (const char* const line :
+             {"ply", "format binary_little_endian 1.0", "element face 1",
+              "property list uchar uchar vertex_index", "element vertex 10",
+              "property uchar x", "property uchar y", "property uchar z", "end_header"})
+            header.append(line).append(end);
+        Bytes bytes = text_bytes(header + "\n");
+        for (unsigned char i = 0; i < 10; ++i) bytes.push_back(i);
+        const int places[10][2]{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0},
+                                {4, 2}, {3, 2}, {2, 2}, {1, 2}, {0, 2}};
+        for (const auto& [x, y] : places)
+            for (const int number : {x, y, 0})
+                bytes.push_back(static_cast<unsigned char>(number));
+        CHECK(area(read_ply(bytes, "x.ply").parts.at(0).mesh) == 8);
+    }
 }
 
 TEST_CASE("load_ply: a file that cannot be right is refused with a sentence") {

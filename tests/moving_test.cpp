@@ -170,6 +170,7 @@ TEST_CASE("moving: light of all times is in one map, which is said") {
     CHECK(remarks(false, true).empty());
     CHECK(remarks(false, false).empty());
     CHECK(remarks(false, false, IndirectLight::map).empty());
+    CHECK(remarks(false, true, IndirectLight::photons).empty()); // nothing gathers
     CHECK(remarks(false, true, IndirectLight::map).find("objects move: ") == 0);
 }
 

@@ -590,6 +590,8 @@ TEST_CASE("nested bodies: what cannot be right is said or refused") {
     CHECK_THROWS_WITH_AS((void)World(lamp),
                          doctest::Contains("the radiance of a transparent body"),
                          std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)lamp.add(nested<float>(0, 1)),
+                         doctest::Contains("glass.index is 0"), std::invalid_argument);
     Bodies<float> many;
     for (int i = 0; i < 256; ++i) (void)many.add(Glass{});
     CHECK_NOTHROW((void)World(many));

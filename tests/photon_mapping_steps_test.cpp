@@ -795,7 +795,7 @@ TEST_CASE("photon mapping: a radius in another unit than the scene's is remarked
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
     const PhotonMapper chosen(room, settings);
     CHECK(chosen.maps().remarks.find(".radius is") == std::string::npos);
-    for (const float scale : {1e-3f, 0.2f, 2.0f, 1e3f}) {
+    for (const float scale : {1e-3f, 0.02f, 0.2f, 2.0f, 1e3f}) {
         CAPTURE(scale);
         settings.caustics_estimate.radius =
             scale * chosen.settings().caustics_estimate.radius;
@@ -897,6 +897,22 @@ TEST_CASE("photon mapping: what the edges of a small object lose") {
     dark.add(square, matt(dark));
     cover(square, all);
     CHECK(lost(std::move(dark), 0.9f, one_kind(PhotonKind::direct)) == 0);
+    // A plate at 45 degrees, 0.4 above the line's start. Along the plate's normal the
+    // photon is 0.1 or 0.9 over the root of 2 away, and the limit is 0.5.
+    for (const float slope : {-1.0f, 1.0f}) {
+        Plates tilted;
+        const auto grey = matt(tilted);
+        tilted.add(Quad{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}}, grey);
+        tilted.add(
+            Quad{{0.4f, 0.4f + 0.1f * slope, 1}, {0.2f, -0.2f * slope, 0}, {0, 0, -2}},
+            grey);
+        const World world(std::move(tilted));
+        const Ray down{.origin{0, 1, 0}, .direction{0, -1, 0}};
+        const auto photon = vertex_at(world, down, *closest_hit(world, down)).point;
+        const DensityEstimateSettings gather{.radius = 1, .kernel = Kernel::box};
+        CHECK(detail::found_along(world, photon, Vec3{0.5f, 0, 0}, gather) ==
+              doctest::Approx(slope < 0 ? 1 + std::sqrt(2.0) : 1));
+    }
 }
 
 TEST_CASE("photon mapping: light that small objects lose is said") {

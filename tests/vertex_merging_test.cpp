@@ -293,6 +293,36 @@ TEST_CASE("vertex merging: in a sphere each strategy has its share") {
     }
 }
 
+// A floor and a wall that see each other at cosines of 1 and 2 over the root of 5. Each
+// finds the other with the same density per area, 1 * 2 / (5 pi) / 5.
+TEST_CASE("vertex merging: a connection between two angles, by hand") {
+    Any scene;
+    const Lambertian grey{.albedo = Rgb{0.5f}};
+    const auto matt = scene.add(grey);
+    scene.add(Quad{{0, 0, 3}, {3, 0, 0}, {0, 0, -3}}, matt);
+    scene.add(Quad{{0, 0, 3}, {0, 0, -3}, {0, 3, 0}}, matt);
+    scene.add(PointLight{.position{1, 2, 1}});
+    const World world(std::move(scene));
+    const VertexMerger merger(world, {.paths = 10, .radius = 0.1f});
+    const auto at = [&](const Ray& ray) {
+        return vertex_at(world, ray, *closest_hit(world, ray));
+    };
+    const Vertex floor = at({.origin{2, 2, 1}, .direction{0, -1, 0}});
+    const SubpathWeights weights{3, 0.7};
+    const LightVertexT<float> wall{.vertex =
+                                       at({.origin{2, 1, 1}, .direction{-1, 0, 0}}),
+                                   .flux = Rgb{4},
+                                   .weights{5, 0.2},
+                                   .depth = 1};
+    Counts counts;
+    const Rgb seen = detail::connect(
+        merger, detail::CameraVertex{floor, grey, weights, 1}, wall, counts);
+    constexpr double pi = std::numbers::pi, eta = 10 * pi * 0.01;
+    const double others = 2 / (25 * pi) * ((3 + eta + 0.7 / pi) + (5 + eta + 0.2 / pi));
+    const double f = 0.5 / pi;
+    CHECK(seen.x == doctest::Approx(f * f * 4 * (2 / 25.0) * 10 / (1 + others)));
+}
+
 // A floor that one point light shines on: a shadow ray, or a photon.
 TEST_CASE("vertex merging: below a point light two strategies share") {
     Any scene;

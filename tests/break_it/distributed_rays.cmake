@@ -145,3 +145,9 @@ ljus_break_it(NAME moving-corners HEADER geometry/moving.hpp TEST moving
     FROM "    return corners_of(moving.shape);"
     TO   "    return corners_of(translated(moving.shape, moving.displacement));"
     CASES "moving: half of a disc*")
+
+# The survey takes every general map for one that indirect rays look up.
+ljus_break_it(NAME moving-only-gathered HEADER inspect/survey.hpp TEST moving
+    FROM "plan.general_map.on && detail::gathers(settings.indirect)"
+    TO   "plan.general_map.on"
+    CASES "moving: light of all times*")

@@ -69,3 +69,9 @@ ljus_break_it(NAME glossy-nearly HEADER materials/material.hpp TEST glossy
     FROM "typical->pdf > T(1)"
     TO   "typical->pdf > T(0.1)"
     CASES "glossy: nearly*")
+
+# Gloss on a matt ground taken for a mirror.
+ljus_break_it(NAME glossy-matt HEADER materials/material.hpp TEST glossy
+    FROM " || has(lobes(m), Lobes::diffuse)) return false;"
+    TO   ") return false;"
+    CASES "glossy: nearly*")

@@ -52,3 +52,8 @@ ljus_break_it(NAME kd-tree-not-finite HEADER accel/kd_tree.hpp TEST kd_tree
     FROM [[require_finite("a point of the k-d tree", point);]]
     TO   ""
     CASES "kd_tree: a point that*")
+
+ljus_break_it(NAME kd-tree-any-negative-radius HEADER accel/kd_tree.hpp TEST kd_tree
+    FROM "if (!(radius >= T(0))) return false;"
+    TO   ""
+    CASES "kd_tree: a ball without*")

@@ -105,3 +105,16 @@ ljus_break_it(NAME wide-kd-tree-range HEADER accel/kd_tree8.hpp TEST kd_tree8
     FROM "std::min(size(),"
     TO   "std::max(size(),"
     CASES "kd_tree8: each range*")
+
+# Both pivots are the same number, which is not that of the rank.
+ljus_break_it(NAME wide-kd-tree-outside HEADER accel/detail/kd_tree8_build.hpp
+    TEST kd_tree8
+    FROM "if (!inside || low != high) select"
+    TO   "if (low != high) select"
+    CASES "kd_tree8: each range*")
+
+# One neighbour, however far away.
+ljus_break_it(NAME wide-kd-tree-one HEADER accel/kd_tree8.hpp TEST kd_tree8
+    FROM "const auto one = nearest(center, radius);"
+    TO   "const auto one = nearest(center);"
+    CASES "kd_tree8: every search*")

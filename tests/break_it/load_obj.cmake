@@ -249,3 +249,9 @@ ljus_break_it(NAME obj-reduced-late HEADER io/detail/mesh_builder.hpp TEST load_
     FROM "for (; pixels > most; pixels"
     TO   "for (; pixels > most + 1; pixels"
     CASES "load_obj: pictures that many*")
+
+# A name ends at any #, not at a comment.
+ljus_break_it(NAME obj-name-comment HEADER io/detail/parse.hpp TEST load_obj
+    FROM "rest.find(\" # \")"
+    TO   "rest.find('#')"
+    CASES "load_obj: the rarer words*")

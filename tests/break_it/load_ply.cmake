@@ -57,3 +57,9 @@ ljus_break_it(NAME ply-strip-end HEADER io/load_ply.hpp TEST load_ply
     FROM "in_strip = 0;\n                continue;"
     TO   "continue;"
     CASES "load_ply: strips of triangles*")
+
+# CR LF taken for CR: the numbers begin with LF.
+ljus_break_it(NAME ply-cr-lf HEADER io/load_ply.hpp TEST load_ply
+    FROM "all[3] == '\\r' && all[4] != '\\n'"
+    TO   "all[3] == '\\r'"
+    CASES "load_ply: behind a header*")

@@ -85,3 +85,9 @@ ljus_break_it(NAME nested-textured-priority HEADER materials/textured.hpp
     FROM "return priority(m.base);"
     TO   "return 0 * priority(m.base);"
     CASES "nested bodies: a normal map*")
+
+# The body's own numbers are not asked for.
+ljus_break_it(NAME nested-check HEADER materials/textured.hpp TEST nested_bodies
+    FROM "check(textured.base);"
+    TO   ""
+    CASES "nested bodies: what cannot be right is*")

@@ -161,3 +161,17 @@ ljus_break_it(NAME photon_mapping-chosen-radius HEADER render/photon_mapping.hpp
     FROM "        check(settings_.general_estimate);"
     TO   "        (void)0;"
     CASES "photon mapping: a chosen radius*")
+
+# The photons in a disc grow with its radius, not with the square.
+ljus_break_it(NAME photon-mapping-unit-area HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "double(some) * share * share;"
+    TO   "double(some) * share;"
+    CASES "photon mapping: a radius in another unit*")
+
+# Thickness along the photon's normal, where an estimate has that of its own point.
+ljus_break_it(NAME photon-mapping-tilted HEADER inspect/scene_remarks.hpp
+    TEST photon_mapping_steps
+    FROM "std::abs(glm::dot(way, point.normal)) < height"
+    TO   "std::abs(glm::dot(way, photon.normal)) < height"
+    CASES "photon mapping: what the edges*")

@@ -243,3 +243,9 @@ ljus_break_it(NAME profile-numbers HEADER io/load_image.hpp TEST texture
     TO   "    if (colors || wanted == 3)
         picture.colors ="
     CASES "texture: colours of other profiles*")
+
+# A gamma of 1 is 256 of its units.
+ljus_break_it(NAME profile-gamma HEADER io/detail/picture_colors.hpp TEST texture
+    FROM "number(curve + 12, 2) / 256.0"
+    TO   "number(curve + 12, 2) / 255.0"
+    CASES "texture: colours of other profiles*")

@@ -73,3 +73,10 @@ ljus_break_it(NAME vertex_merging-passes HEADER render/vertex_merging.hpp
     FROM "settings.iteration = static_cast<std::uint64_t>(pass);"
     TO   ""
     CASES "vertex merging: passes*")
+
+# The density of the camera's vertex has the cosine of the other end.
+ljus_break_it(NAME vertex_merging-density HEADER render/vertex_merging.hpp
+    TEST vertex_merging
+    FROM "there.pdf * here.cosine / d2"
+    TO   "there.pdf * there.cosine / d2"
+    CASES "vertex merging: a connection*")

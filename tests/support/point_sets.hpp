@@ -70,6 +70,12 @@ std::vector<PointSet<T>> point_sets(std::size_t n, double size, double offset) {
     }));
     sets.push_back(
         make("along an axis", [&](auto) { return D{0, numbers.unit(), 0}; }));
+    // 512 points with even gaps say nothing about the others.
+    sets.push_back(make("a sample that is one plane", [&](std::size_t i) {
+        D p = numbers.point<double>(1);
+        p.x = i % std::max<std::size_t>(n / 512, 1) == 0 ? -1 : std::abs(p.x);
+        return p;
+    }));
     return sets;
 }
 
@@ -126,7 +132,7 @@ void compare_with_brute_force(const PointSet<T>& set, Draws& numbers) {
             radius = T(std::sqrt(distance2(edge, center)));
         }
 
-        const auto all = [](std::uint32_t) { return true; };
+        constexpr ljus::detail::AnyPoint all{};
         const auto some = [](std::uint32_t index) { return index % 3 == 1; };
         const auto expected = brute_force(tree, center, radius, all);
         std::vector<Neighbor> visited;

@@ -101,6 +101,7 @@ void no_inside() {
         std::size_t found = 0;
         tree.visit_within(center, radius, [&](std::uint32_t, double) { ++found; });
         CHECK(tree.nearest(center, radius, room, [](auto) { return true; }) == found);
+        CHECK(tree.any_within(center, radius) == (found > 0));
         return found;
     };
     CHECK(count({0, 0, 0}, 0.0f) == 2);
