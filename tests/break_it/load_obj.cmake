@@ -249,3 +249,9 @@ ljus_break_it(NAME obj-reduced-late HEADER io/detail/mesh_builder.hpp TEST load_
     FROM "for (; pixels > most; pixels"
     TO   "for (; pixels > most + 1; pixels"
     CASES "load_obj: pictures that many*")
+
+# A house in the coordinates of its country is rounded out of shape without a word.
+ljus_break_it(NAME obj-far HEADER io/detail/mesh_builder.hpp TEST load_obj
+    FROM "step > size / T(10000)"
+    TO   "step > size * T(10000)"
+    CASES "load_obj: a report has all*")
