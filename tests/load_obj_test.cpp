@@ -899,6 +899,16 @@ TEST_CASE("load_obj: a report has all that the file has") {
           "leaf.png");
     CHECK(to_text(MeshMaterial{.index = 1.25, .illumination = 4}) ==
           "glass of index 1.25");
+    // A square of 0.5 m in SWEREF 99, the grid of Sweden. Floats between 2^22 and 2^23
+    // are multiples of 0.5.
+    const std::string far = "v 535000 6474000 0\nv 535000.5 6474000 0\n"
+                            "v 535000.5 6474000.5 0\nv 535000 6474000.5 0\n"
+                            "f 1 2 3 4\n";
+    CHECK(to_text(read_obj(far, "x").report)
+              .ends_with(" is 0.5 large, but so far from the origin that coordinates "
+                         "are rounded to steps of 0.5; move it to the origin before it "
+                         "is saved, or load it in double.\n"));
+    CHECK(read_obj<double>(far, "x").report.notes.empty());
     CHECK(square.report.content.polygons == 1);
     CHECK_FALSE(square.report.content.closed);
     CHECK(square.report.content.volume == 0);

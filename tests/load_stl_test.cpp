@@ -57,6 +57,17 @@ TEST_CASE("load_stl: two solids, capital letters, polygons, and attributes") {
         CHECK(area(capital.parts.at(0).mesh) == 2);
         CHECK(capital.report[MeshTrouble::turned].count == (up == "-1" ? 1 : 0));
     }
+    // Of a program that speaks Swedish: 1.5 x 0.75 / 2. More commas make no number.
+    for (const std::string y : {"-7,5E-1", "0,7,5", "0,7.5"}) {
+        const Bytes file =
+            text_bytes("solid a\nfacet normal 0,0 0,0 -1,0\nouter loop\nvertex 0,0 0,0 "
+                       "0,0\nvertex ,5 " +
+                       y + " 0,\nvertex 1,5 0,0 0,0\nendloop\nendfacet\nendsolid a\n");
+        if (y[0] == '-')
+            CHECK(area(read_stl(file, "x.stl").parts.at(0).mesh) == 0.5625f);
+        else
+            CHECK_THROWS((void)read_stl(file, "x.stl"));
+    }
     Bytes turned = stl_bytes(
         {.positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles{{0, 1, 2}}}, false);
     turned[84 + 10] = 0x80; // the normal becomes (0, 0, -1)

@@ -105,3 +105,9 @@ ljus_break_it(NAME gltf-diffuse-texture HEADER io/detail/gltf_reader.hpp TEST lo
     FROM "field ? color_texture(*surface.material) : std::nullopt;"
     TO   "std::optional<JsonField>{};"
     CASES "load_gltf: pictures of colour*")
+
+# Data within a file have letters that are written as % and their codes.
+ljus_break_it(NAME gltf-coded-data HEADER io/detail/gltf_data.hpp TEST load_gltf
+    FROM "from_base64(decoded(std::string_view(is).substr(comma + 1)), uri)"
+    TO   "from_base64(std::string_view(is).substr(comma + 1), uri)"
+    CASES "load_gltf: a mesh is the same*")

@@ -255,3 +255,8 @@ ljus_break_it(NAME obj-name-comment HEADER io/detail/parse.hpp TEST load_obj
     FROM "rest.find(\" # \")"
     TO   "rest.find('#')"
     CASES "load_obj: the rarer words*")
+# A house in the coordinates of its country is rounded out of shape without a word.
+ljus_break_it(NAME obj-far HEADER io/detail/mesh_builder.hpp TEST load_obj
+    FROM "step > size / T(10000)"
+    TO   "step > size * T(10000)"
+    CASES "load_obj: a report has all*")

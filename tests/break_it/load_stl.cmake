@@ -23,3 +23,9 @@ ljus_break_it(NAME stl-turned HEADER io/load_stl.hpp TEST load_stl
     FROM "report.add(MeshTrouble::turned, mesh.place);"
     TO   ";"
     CASES "load_stl: two solids*")
+
+# A file with decimal commas has no numbers.
+ljus_break_it(NAME stl-comma HEADER io/detail/parse.hpp TEST load_stl
+    FROM "stop != end && *stop == ','"
+    TO   "stop != end && *stop == 0"
+    CASES "load_stl: two solids*")

@@ -14,8 +14,8 @@ ljus_break_it(NAME own_materials-turn HEADER io/detail/gltf_reader.hpp
 
 # Normals that are decoded like colours.
 ljus_break_it(NAME own_materials-numbers HEADER io/load_image.hpp TEST own_materials
-    FROM "!colors             ? byte"
-    TO   "colors && byte > 2  ? byte"
+    FROM "colors ? picture.colors.linear[k][byte] : byte / 255.0"
+    TO   "picture.colors.linear[k][byte]"
     CASES "own materials: pictures of MTL*")
 
 # A picture without alpha is a mask by its red, which nobody reads.

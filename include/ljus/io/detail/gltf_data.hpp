@@ -43,22 +43,27 @@ inline Bytes from_base64(std::string_view text, const JsonField& field) {
     return bytes;
 }
 
-// The path that a URI means, in which %20 stands for a blank.
-inline std::string path_of_uri(const JsonField& field) {
-    const std::string& uri = text(field);
-    if (uri.find("://") != uri.npos)
-        refuse(field, "is an address; only files beside this one are read");
-    std::string name;
+// What a URI means, in which %20 stands for a blank.
+inline std::string decoded(std::string_view uri) {
+    std::string plain;
     for (std::size_t i = 0; i < uri.size(); ++i) {
         const char* const digits = uri.data() + i + 1;
         unsigned code = 0;
         const bool coded =
             uri[i] == '%' && i + 2 < uri.size() &&
             std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-        name += coded ? static_cast<char>(code) : uri[i];
+        plain += coded ? static_cast<char>(code) : uri[i];
         i += coded ? 2 : 0;
     }
-    return path_beside(field.file, name);
+    return plain;
+}
+
+// The path of the file that a URI names.
+inline std::string path_of_uri(const JsonField& field) {
+    const std::string& uri = text(field);
+    if (uri.find("://") != uri.npos)
+        refuse(field, "is an address; only files beside this one are read");
+    return path_beside(field.file, decoded(uri));
 }
 
 // Reads an index into a list of `count` entries, which messages call `list`.
@@ -157,7 +162,7 @@ public:
         const std::size_t comma = is.find(',');
         if (comma == is.npos || !is.substr(0, comma).ends_with(";base64"))
             refuse(uri, "holds its data in another way than base64");
-        return from_base64(std::string_view(is).substr(comma + 1), uri);
+        return from_base64(decoded(std::string_view(is).substr(comma + 1)), uri);
     }
 
     // The numbers of an accessor, element by element; normalized integers become

@@ -468,6 +468,19 @@ LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& sett
             throw std::runtime_error(shown_path(file) + ": " + wrong.what());
         }
     }
+    BoxT<T> box;
+    for (const MeshPartT<T>& part : loaded.parts)
+        box = box_union(box, part.mesh.tree().box());
+    const T far = max_component(glm::max(glm::abs(box.low), glm::abs(box.high)));
+    const T step = std::nextafter(far, std::numeric_limits<T>::infinity()) - far;
+    const T size = max_component(box.high - box.low);
+    if (step > size / T(10000))
+        loaded.report.notes.push_back(join(
+            {"the mesh is ", to_text(double(size)),
+             " large, but so far from the "
+             "origin that coordinates are rounded to steps of ",
+             to_text(double(step)),
+             "; move it to the origin before it is saved, or load it in double."}));
     return loaded;
 }
 

@@ -153,12 +153,19 @@ private:
 };
 
 // The number that a word spells; 0 if it is too small for double, NaN for no number.
+// Some programs write a comma for the point, as their user's language has it.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (stop == end && error == std::errc{}) return value;
+    const auto at = static_cast<std::size_t>(stop - word.data());
+    if (stop != end && *stop == ',' && word.find_first_of(",.", at + 1) == word.npos) {
+        std::string with_point(word);
+        with_point[at] = '.';
+        return number_of(with_point);
+    }
     const bool tiny = stop == end && error == std::errc::result_out_of_range &&
                       word.find_first_of("eE") + 1 == word.find('-', 1);
     return tiny ? 0 : std::numeric_limits<double>::quiet_NaN();
