@@ -940,6 +940,23 @@ TEST_CASE("photon mapping: light that small objects lose is said") {
     CHECK(said(0.5f, settings));
     settings.indirect = IndirectLight::rays;
     CHECK_FALSE(said(0.5f, settings)); // nobody asks the map
+
+    // A plate above a mirror: of the area of a disc of radius 0.1 it is at most 1/pi,
+    // of one of radius 0.005 nearly all.
+    for (const auto& [radius, lost] : {std::pair{0.1f, true}, {0.005f, false}}) {
+        BallRoomT<float> room;
+        const auto white = room.add(Lambertian{.albedo = Rgb{0.7f}});
+        room.add(Quad{{-0.05f, 0, -0.05f}, {0, 0, 0.1f}, {0.1f, 0, 0}}, white);
+        room.add(Quad{{-1, -1, -1}, {2, 0, 0}, {0, 0, 2}}, room.add(Mirror{}));
+        room.add(Quad{{-1, 1, -1}, {2, 0, 0}, {0, 0, 2}}, white, Rgb{1});
+        const World world(std::move(room));
+        PhotonMappingSettings caustic;
+        caustic.caustics = {.photons = 200000, .seed = test_seed(12), .threads = 1};
+        caustic.caustics_estimate.radius = radius;
+        const std::string lines = mapper_remarks(PhotonMapper(world, caustic));
+        CHECK((lines.find("of its caustics fall beyond its edges") !=
+               std::string::npos) == lost);
+    }
 }
 
 TEST_CASE("photon mapping: after gloss a path finds the lamps by its next ray") {

@@ -315,16 +315,15 @@ TEST_CASE("sky: its photons bring pi L to an open floor, and glass its share") {
 }
 
 TEST_CASE("sky: behind a pane it has the colour of the pane, and photons keep it") {
-    // Straight on r = 0.04. Of a pane with the tint a passes (1 - r)^2 a / (1 - r^2 a^2)
-    // = T, and r (1 + a T) returns; both lead to the sky.
+    // Straight on r = 0.04. A pane with the tint a passes T = (1 - r)^2 a /
+    // (1 - r^2 a^2) and returns r (1 + a T); both lead to the sky.
     const ThinGlass pane{.tint{1, 0.5f, 0.1f}};
     const Quad quad{.corner{-1, -1, 0}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}};
     const World world(make_scene(placed(quad, pane), Sky{}));
-    const World lit(make_scene(placed(quad, pane),
-                               SpotLight{.position{0, 0, 5},
-                                         .direction{0, 0, -1},
-                                         .inner_degrees = 0.1f,
-                                         .outer_degrees = 0.1f}));
+    const World lit(make_scene(placed(quad, pane), SpotLight{.position{0, 0, 5},
+                                                             .direction{0, 0, -1},
+                                                             .inner_degrees = 0.1f,
+                                                             .outer_degrees = 0.1f}));
     const auto audit = trace_photons(lit, MapType::general,
                                      {.photons = 100000, .shadow_photons = false})
                            .audit;

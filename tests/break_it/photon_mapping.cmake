@@ -127,6 +127,11 @@ ljus_break_it(NAME photon-mapping-edges-said HEADER inspect/scene_remarks.hpp
     FROM "if (!(lost > 0.2)) return {};"
     TO   "if (!(lost > 0.5)) return {};"
     CASES "photon mapping: light that small*")
+ljus_break_it(NAME photon-mapping-caustics-said HEADER inspect/scene_remarks.hpp
+    TEST photon_mapping_steps
+    FROM "if (beyond > 0.2)"
+    TO   "if (beyond > 0.9)"
+    CASES "photon mapping: light that small*")
 
 # A ray of its own to lamps was given up, and the next one forgets them.
 ljus_break_it(NAME photon-mapping-next-ray HEADER render/photon_mapping.hpp

@@ -532,6 +532,17 @@ template <typename Mapper>
             edge_loss(mapper.world(), mapper.maps().general, settings.general_estimate,
                       one_kind(PhotonKind::indirect), settings.general.seed),
             settings.general_estimate.radius);
+    if (!mapper.passes().caustics_map || settings.caustics_estimate.nearest > 0)
+        return lines;
+    const double beyond =
+        edge_loss(mapper.world(), mapper.maps().caustics, settings.caustics_estimate,
+                  one_kind(PhotonKind::caustic), settings.caustics.seed);
+    if (beyond > 0.2)
+        lines += detail::join(
+            {"some object is so small for caustics_estimate.radius = ",
+             to_text(settings.caustics_estimate.radius), " that about ",
+             to_text(std::llround(100 * beyond)),
+             " % of its caustics fall beyond its edges; choose a smaller radius\n"});
     return lines;
 }
 
