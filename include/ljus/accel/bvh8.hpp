@@ -22,8 +22,8 @@ public:
     Bvh8() = default;
 
     /// Builds the tree.
-    /// \param boxes     The boxes of fewer than 2^27 primitives, as for BvhT.
-    /// \param settings  As for BvhT, with at most 16 primitives per leaf.
+    /// \param boxes     The boxes of the primitives, as for BvhT, but fewer than 2^27.
+    /// \param settings  As for BvhT, but at most 16 primitives per leaf.
     /// \param multiple  The first slot of each leaf is a multiple of this number.
     ///                  Unused slots between leaves are padding.
     /// \throws std::invalid_argument  as the constructor of BvhT.

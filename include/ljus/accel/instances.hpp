@@ -33,10 +33,10 @@ template <std::floating_point T>
     return size.x * sizes(map[0]) + size.y * sizes(map[1]) + size.z * sizes(map[2]);
 }
 
-/// A bound for a vector v with |v| <= size that is transformed by the inverse map and
-/// then by the map. Absolute values are added, so that no terms cancel. This bound
+/// A bound on the terms that are added when a vector v with |v| <= size is transformed
+/// by the inverse map and then by the map. Their absolute values are summed. This sum
 /// times the relative rounding error of the inverse map is a bound on the error of the
-/// transformed vector.
+/// result.
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> there_and_back(const AffineT<T>& map, const AffineT<T>& back,
                                       const Vec3T<T>& size) noexcept {

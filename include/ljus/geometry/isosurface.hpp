@@ -133,8 +133,8 @@ bounding_sphere(const IsosurfaceT<T, Field>& surface) noexcept {
     return surface.bounds;
 }
 
-/// Refuses an isosurface unless the centre of `bounds` is finite, and the radius of
-/// `bounds` and the Lipschitz bound are finite and above 0.
+/// Checks an isosurface: the centre of `bounds` must be finite, and its radius and the
+/// Lipschitz bound finite and above 0.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T, LipschitzField Field>
 void check(const IsosurfaceT<T, Field>& surface) {

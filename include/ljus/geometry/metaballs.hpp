@@ -146,8 +146,8 @@ template <std::floating_point T>
                       (T(1) + T(4) * std::numeric_limits<T>::epsilon())};
 }
 
-/// Refuses metaballs if a member is not finite, if the level or a radius is not above
-/// 0, or if the positive weights do not exceed the level.
+/// Checks metaballs. All members must be finite, the level and the radii above 0, and
+/// the sum of the positive weights above the level.
 /// \throws std::invalid_argument  with the name and the value of the member.
 template <std::floating_point T>
 void check(const MetaballsT<T>& balls) {

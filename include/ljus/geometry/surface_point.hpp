@@ -24,8 +24,8 @@ struct SurfacePointT {
     Vec3T<T> position{T(0)}; ///< The position, in scene units.
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal; points outwards.
-    T tilt = T(0); ///< Condition number of the plane of a flat shape; see
-                   ///< detail::add_tilt(). 0 on other shapes.
+    T tilt = T(0); ///< On a flat shape, how much its test magnifies rounding errors;
+                   ///< see detail::add_tilt(). 0 on other shapes.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 
@@ -133,8 +133,8 @@ template <std::floating_point T>
 
 /// A ray from one surface point to another. It hits neither surface at its ends.
 ///
-/// The rounding error of a hit grows with the length of the ray. The ray ends short of
-/// `to` by this error, because a lamp could otherwise shadow itself.
+/// The rounding error of a hit grows with the length of the ray. The ray stops before
+/// its target by this error, because a lamp could otherwise shadow itself.
 /// \return The ray. Its direction is the vector from its origin to its end, at t = 1.
 // [spawn_ray_to]
 template <std::floating_point T>

@@ -45,8 +45,8 @@ struct ExplainedPixelT {
 
 namespace detail {
 
-/// Renders one pixel again and logs its terms. The first `keep` rays are kept in full.
-/// The other parameters are those of explain().
+/// Renders one pixel again and logs its terms. `keep` is the number of rays that are
+/// kept in full. The other parameters are those of explain().
 template <typename R, CameraLike C>
 [[nodiscard]] ExplainedPixelT<typename C::Scalar>
 take_apart(const R& renderer, const C& camera, const RenderSettings& picture, int x,
@@ -132,8 +132,8 @@ inline std::string line_of(const PathLogLine& step) {
            (step.pdf > 0 ? density : ", delta");
 }
 
-/// The contributions to a pixel as text. The `most` brightest sums are printed line by
-/// line, and all others as one sum.
+/// The contributions to a pixel as text. At most `most` sums, the brightest ones, are
+/// printed line by line, and all others as one sum.
 template <std::floating_point T>
 [[nodiscard]] std::string describe(const ExplainedPixelT<T>& pixel,
                                    std::size_t most = 16) {

@@ -95,8 +95,8 @@ template <std::floating_point T, std::floating_point U>
 }
 
 /// The relative mean square error without the pixels whose error, as a mean over the
-/// channels, is largest. Their fraction is `dropped`, in [0, 1). Without the worst 1 %,
-/// fireflies hardly influence the metric.
+/// channels, is largest. The argument `dropped`, in [0, 1), is the fraction of these
+/// pixels. Without the worst 1 %, fireflies hardly influence the metric.
 ///
 /// *Trap*: the metric favours a method that puts much light into few pixels. State it
 /// beside rel_mse(), never in its place.

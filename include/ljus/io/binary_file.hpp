@@ -125,7 +125,8 @@ struct FileReader {
                ", which does not match its " + std::to_string(bytes.size()) + " bytes");
     }
 
-    /// Reads the next number, which must be in the file. The checksum is skipped.
+    /// Reads the next number, which must be in the file. Where the next bytes are the
+    /// checksum, they are left out.
     template <typename Number>
     [[nodiscard]] Number take() {
         if (position == detail::checksum_place) position = file_front_bytes;

@@ -237,12 +237,12 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// \param others  The number of pixels in all pictures that the caller keeps already.
 ///                With the new picture, there may be at most 2^25 pixels in all.
 /// \param content What is read from the picture.
-/// \return Colours or numbers in [0, 1]. Colours that the file declares in another way
-///         than by sRGB are converted: by a colour profile of curves and a matrix, such
-///         as Display P3 or grey ones, or by the primaries and the gamma of its header.
-///         Channels of colours outside of sRGB's gamut are limited to 0 and 1. The
-///         picture is turned upright by its EXIF orientation. A pixel whose index is
-///         beyond the end of the palette is black.
+/// \return Colours or numbers in [0, 1]. Colours of another space than sRGB, such as
+///         Display P3 or Adobe RGB, are converted, if the file declares them by a
+///         profile of curves and a matrix, or by the primaries and the gamma of its
+///         header. Channels of colours outside of sRGB's gamut are limited to 0 and 1.
+///         The picture is turned upright by its EXIF orientation. A pixel whose index
+///         is beyond the end of the palette is black.
 /// \throws std::runtime_error  with path and reason, if the file is not a picture or is
 ///         too large, or if colours are read whose profile consists of tables or is
 ///         neither for RGB nor for grey; std::bad_alloc if there is not enough memory.

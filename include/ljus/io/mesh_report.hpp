@@ -55,8 +55,9 @@ inline constexpr std::size_t mesh_troubles = 21;
 /// The number of occurrences of a problem.
 struct MeshCount {
     long long count = 0; ///< Number of occurrences.
-    long long line = 0;  ///< Number of the line, or other MeshReport::unit, of the
-                         ///< first occurrence; from 1.
+    long long line = 0;  ///< Number of the line of the first occurrence, from 1. In a
+                         ///< binary file, of the element or triangle in place of the
+                         ///< line; see MeshReport::unit.
 };
 
 /// The numbers of vertices, faces and other elements of a mesh file.

@@ -36,7 +36,7 @@ namespace detail {
 /// The fraction of light that a white surface loses in Fujii's second model, divided by
 /// A r, where r is the roughness, A is 1/(1 + k_1 r), and k_1 is fon_constant
 /// \cite eon2025. With the reflected fraction E, the result is
-/// \f$ (1 - E(\mu)) / (A r) = k_1 - G(\mu)/\pi \f$.
+/// \f$ (1 - E(\mu)) / (A r) \f$.
 /// \param s, mu  Sine and cosine of the angle between the direction and the normal.
 /// \return At least 0, at most k_1.
 // [eon loss]

@@ -218,7 +218,8 @@ concept MayAbsorb = requires(const detail::Own<M>& m) {
 };
 
 /// The material of a transparent body. It provides `refractive_index(m)`, which returns
-/// 0 if m happens to be opaque. What material_at() returns for it has a member `index`.
+/// 0 if m happens to be opaque. material_at() must give a material with a member
+/// `index` for it.
 template <typename M>
 concept Refractive = requires(const M& m) {
     { refractive_index(m) } -> std::same_as<typename M::Scalar>;

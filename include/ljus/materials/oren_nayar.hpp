@@ -14,10 +14,11 @@ namespace ljus {
 
 /// \defgroup oren_nayar Oren-Nayar
 /// \brief Section 3.2.1 of the report: the Oren-Nayar BRDF, \cite orennayar1994.
-/// \erratum{The report's program uses the cosine of the angle between wi and wo, where
-/// the model has the cosine of the angle between their azimuths, and clamps the result
-/// to 1. Figure 14 shows roughness 1, 10 and 100. The unit is radians, and the
-/// coefficients A and B of the model are nearly constant above 3.}
+/// \erratum{The model has the cosine of the angle between the azimuths of wi and wo. In
+/// its place the report's program uses the cosine of the angle between wi and wo; it
+/// also clamps the result to 1. Figure 14 shows roughness 1, 10 and 100. The unit is
+/// radians. The coefficients A and B of the model are nearly constant for a roughness
+/// above 3, so that 10 and 100 look the same.}
 /// \{
 
 /// A two-sided surface of matt facets with random slopes. Its shading is flatter than

@@ -70,8 +70,8 @@ struct RoughRatiosT {
 ///
 /// where sigma is the roughness in radians, alpha the larger of the angles of wi and wo
 /// to the normal, beta the smaller, and phi the angle between the azimuths. The code
-/// gives C_1, C_2 and C_3. For grazing directions from opposite sides the terms cancel:
-/// `single` then has no correct digits and may be negative.
+/// gives C_1, C_2 and C_3. For grazing directions with opposite azimuths the terms
+/// cancel: `single` then has no correct digits and may be negative.
 /// \cost Two arc tangents, two square roots, seven divisions.
 // [full]
 template <std::floating_point T>

@@ -27,8 +27,8 @@ struct EnergyLossT {
     static constexpr int cells = 128; ///< Number of cells of the table.
     T alpha = T(0);                   ///< Roughness; 0 for a mirror, without loss.
     std::array<T, cells + 1> at{};    ///< The loss 1 - E(mu), in [0, 1).
-    /// The fraction of the cosine-weighted loss that lies at cosines below the cosine
-    /// of the entry.
+    /// The distribution function of the loss over mu: the fraction of the
+    /// cosine-weighted loss at all smaller mu.
     std::array<T, cells + 1> below{};
     T mean = T(0); ///< The cosine-weighted mean of the loss over the hemisphere.
 };

@@ -74,8 +74,8 @@ struct ExpressionLog {
 template <std::floating_point T>
 struct ClassesLog {
     std::vector<ExpressionLog<T>> logs{}; ///< One log for each class.
-    /// For each delayed term, see LogLike, one bit per class: whether the term belongs
-    /// to the class.
+    /// One bit per class for each delayed term: whether the term belongs to the class.
+    /// A delayed term is one whose value is found later; see LogLike.
     std::vector<std::uint64_t> takers{};
     /// Where delay() writes the new size of `takers`.
     std::uint32_t* next_delayed = nullptr;

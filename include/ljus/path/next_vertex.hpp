@@ -411,8 +411,8 @@ template <AnyWorld W, std::floating_point T>
         });
 }
 
-/// A ray that meets more thin or hidden surfaces than this counts as blocked. A hidden
-/// surface lies inside a body of higher priority.
+/// The largest number of thin or hidden surfaces that a ray passes; beyond it the ray
+/// counts as blocked. A hidden surface lies inside a body of higher priority.
 inline constexpr int max_thin_surfaces = 1000;
 
 // visibility() in a scene with thin surfaces or with overlapping bodies.

@@ -74,7 +74,8 @@ void log_arrival(Log& log, const Vec3T<T>& position) {
     if constexpr (requires { log.arrive(position); }) log.arrive(position);
 }
 
-/// If a log has delay(), reports a delayed term, see LogLike.
+/// If a log has delay(), reports a delayed term: one whose value is found later, see
+/// LogLike.
 /// \param suffix  The letters from the last vertex to the light.
 template <typename Log>
 void log_delay(Log& log, std::string_view suffix) {

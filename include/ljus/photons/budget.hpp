@@ -169,11 +169,11 @@ struct PilotLightT {
 /// light. This addition limits the weight of dark surfaces.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass, the same number to each object: at least
+///                the photons of that pass. Each object gets the same number, at least
 ///                500 and at most 20 000.
 /// \param radius  Radius of the picture's estimates, in scene units. The pilot searches
-///                within twice this radius. If it is 0, the typical radius of 32
-///                photons of the picture is used.
+///                within twice this radius. If it is 0, the radius is chosen for which
+///                a disc typically contains 32 photons of the picture.
 /// \param light   The photons of a general map, for all other light; may be empty.
 ///                Shadow photons do not count.
 /// \param wide    Search radius in `light`. If it is 0, the typical radius of 64 of
@@ -243,9 +243,9 @@ struct AllAlike {
 /// even if the pilot misses some light.
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
-///                the photons of that pass. If a light would get less than 200 of
-///                them, it sends more, up to a quarter of the photons of that pass. It
-///                never sends more than 20 000 per light.
+///                the photons of that pass, at most 20 000 per light. If that is less
+///                than 200 per light, the pilot sends more, up to a quarter of the
+///                photons of that pass.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for

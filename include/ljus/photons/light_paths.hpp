@@ -50,8 +50,8 @@ struct LightVertexT {
     RgbT<T> flux{T(0)};       ///< The flux that arrives, in W, as in a PhotonT.
     SubpathWeights weights{}; ///< The weights at the vertex.
     int depth = 0;            ///< Number of surfaces from the light to this vertex.
-    /// Heckbert's letters from the diffuse vertex that is joined to this one, to this
-    /// vertex, and on to the light: "DD...L".
+    /// Heckbert's letters, "DD...L". The first D is the vertex to which this one is
+    /// joined, the second D is this vertex, and L is the light.
     std::string letters{};
 };
 

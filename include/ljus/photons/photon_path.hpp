@@ -283,11 +283,11 @@ template <std::floating_point T, Material M, StreamLike Stream>
 /// Takes a photon through the fog before its next surface. fly() decides whether and
 /// where fog scatters the photon.
 ///
-/// A photon of the general map is scattered at this point, unless Russian roulette ends
-/// it. A photon of the caustics map is not scattered; its flux is attenuated by the
-/// fog. At this point a photon of the kind PhotonKind::fog is stored if the path so far
-/// is L S+ for the caustics map, or L ... D ... for the general map. Direct light in
-/// fog is left to shadow rays.
+/// Where fog scatters it, a photon of the kind PhotonKind::fog is stored if the path so
+/// far is L S+ for the caustics map, or L ... D ... for the general map. Direct light
+/// in fog is left to shadow rays. In the general pass the photon then goes on in its
+/// new direction, unless Russian roulette ends it. In the caustics pass it goes
+/// straight on, and the fog attenuates its flux.
 /// \param path     The path after next_vertex(). Receives the flux and, if fog scatters
 ///                 the photon, the new ray.
 /// \param before   The flux before next_vertex(); receives the flux at the surface.

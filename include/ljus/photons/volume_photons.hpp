@@ -88,7 +88,7 @@ using VolumeMap = VolumeMapT<float>; ///< VolumeMapT in float.
 namespace detail {
 
 /// Sets the radii as BeamEstimateSettings describes. If the distance to the neighbour
-/// is 0, the radius is a thousandth of the longest side of the bounding box.
+/// is 0, the radius is a thousandth of the longest side of the box around all photons.
 // [radii]
 template <std::floating_point T>
 [[gnu::cold]] void set_radii(std::vector<VolumePhotonT<T>>& photons,

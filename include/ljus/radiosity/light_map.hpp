@@ -63,9 +63,9 @@ template <AnyWorld W>
 }
 
 /// The indices of a cell's vertices in its grid. A cell on a quad or a ball has four
-/// vertices; a cell on a triangle has three, and the fourth index is no_grid. The first
-/// and the last column of cells on a ball end at its poles, each of which is a single
-/// vertex.
+/// vertices; a cell on a triangle has three, and the fourth index is no_grid. A column
+/// on a ball is a ring of cells at one height. The first and the last ring end at a
+/// pole, which is a single vertex.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4>
 cell_vertices(const PatchGrid& grid, const CellPlace& place) noexcept {
     const auto vertex = [&](std::uint32_t right, std::uint32_t up) {

@@ -24,7 +24,7 @@ namespace ljus {
 namespace detail {
 
 enum class GridKind : std::uint8_t {
-    quad,     ///< Columns along u and rows along v.
+    quad,     ///< Columns are numbered along u, rows along v.
     triangle, ///< columns^2 congruent triangles.
     ball,     ///< The same as `quad`, but its first and last rows are neighbours.
 };

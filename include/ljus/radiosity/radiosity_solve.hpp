@@ -35,8 +35,8 @@ struct SolveSettings {
     /// flux, in every channel.
     double tolerance = 1e-12;
     int max_sweeps = 10000; ///< The largest number of sweeps.
-    /// Number of threads, as in ParallelSettings, for `jacobi` and for the last
-    /// residual of `lu`. The other solvers use one thread.
+    /// Number of threads, as in ParallelSettings, for `jacobi`, and for the residual
+    /// that is computed after `lu`. The other solvers use one thread.
     int threads = 0;
 };
 

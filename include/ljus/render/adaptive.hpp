@@ -47,8 +47,8 @@ struct AdaptiveSettings {
                        ///< number; 0: no target.
     /// If above 0, each block gets one batch after its first rays. The number of rays
     /// in the batch is proportional to the relative standard deviation of the first
-    /// rays of the eight blocks around it. Where that deviation is at least this
-    /// number, the batch has `more` rays.
+    /// rays of the eight blocks around it. The batch has its largest size, the setting
+    /// `more`, if that deviation is at least this number.
     double disagreement = 0;
     /// The relative variance is the variance divided by the sum of the squared mean and
     /// this number, as in rel_mse().

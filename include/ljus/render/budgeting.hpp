@@ -41,7 +41,7 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
 /// a pilot pass.
 /// \param world     The closed scene.
 /// \param settings  The budget, photons, radii. For CausticBudget::brightness, 20 000
-///                  photons of a general pass estimate the other light in the scene.
+///                  photons of a general pass estimate all light that is no caustic.
 /// \return PhotonPassSettings::shares; unchanged if the settings contain them, or for
 ///         CausticBudget::as_seen.
 template <AnyWorld W>

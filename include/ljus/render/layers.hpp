@@ -147,7 +147,8 @@ struct LayeredPixel {
     }
 };
 
-/// Traces the rays of a picture in layers, one after another.
+/// Traces the rays of a picture one by one, and finds the values of each ray in all
+/// layers.
 template <typename R, typename C>
 class LayeredTracer {
 public:

@@ -77,7 +77,8 @@ struct PhotonMappingSettings {
     /// Whether the mapper calls pilot_lights() to measure how the lights share
     /// caustics.photons. The pilot costs at most a quarter of that number of photons.
     /// Each caustic_budget measures this anyway, except CausticBudget::as_seen and
-    /// CausticBudget::equal. The setting is ignored without the ability Budgeting.
+    /// CausticBudget::equal. A mapper without the ability Budgeting, see abilities,
+    /// ignores the setting.
     bool share_lights = false;
     /// How caustics are estimated. With radius 0 the mapper chooses a radius for which
     /// a disc typically holds 32 photons.

@@ -240,8 +240,8 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
 
     std::tuple<std::vector<FirstShape>, std::vector<S>...>
         shapes; ///< The shapes, an array per type.
-    /// The properties of each shape, in the order of `shapes`. The emission is the
-    /// argument of add(), without that of the material.
+    /// The properties of each shape, in the order of `shapes`. ObjectT::emission is the
+    /// argument of add(); what the material emits is not included.
     std::array<std::vector<ObjectT<Scalar>>, 1 + sizeof...(S)> objects;
     std::tuple<std::vector<M>...> materials; ///< The materials, an array per type.
     std::tuple<std::vector<L>...> lights;    ///< The lights, an array per type.
@@ -345,7 +345,7 @@ struct Scene<Shapes<FirstShape, S...>, Materials<M...>, Lights<L...>, Media<P...
 
     /// The emission of an object, including that of its material, in W/(m^2 sr).
     /// \throws std::invalid_argument  if the material is unknown, if the radiance is
-    ///         out of range, or if a surface that is thin or has holes emits.
+    ///         out of range, or if it is above 0 on a thin surface or one with holes.
     [[nodiscard]] RgbT<Scalar> emission_of(const ObjectT<Scalar>& object) const {
         const MaterialId id = object.material;
         require_radiance("emission", object.emission);

@@ -240,9 +240,10 @@ struct BallBlocks {
     GrowingArray<BallBlock> blocks{}; ///< The result, sorted by ball.
 };
 
-/// Finds the blocks of KdTree8T::visit_blocks() for many balls of one radius, in the
-/// same order. All balls visit one level of the tree before the next level. A search
-/// for a single ball waits for memory at each step; the waits of many balls overlap.
+/// Finds for many balls of one radius what KdTree8T::visit_blocks() finds for each. The
+/// blocks of a ball have the order in which visit_blocks() visits them. All balls visit
+/// one level of the tree before the next level. A search for a single ball waits for
+/// memory at each step; the waits of many balls overlap.
 /// \param tree    The tree.
 /// \param balls   The number of balls.
 /// \param center  Called as center(ball); returns the centre of a ball.
