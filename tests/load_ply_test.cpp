@@ -81,8 +81,8 @@ TEST_CASE("load_ply: the corners of a face may have texture coordinates") {
              "4 0 0 1 1 3 0 3 1\n");
     const auto& data = loaded.parts.at(0).mesh.data();
     REQUIRE(data.triangles.size() == 3);
-    const auto corner = [&](std::size_t triangle, int k) {
-        return data.uv.at(data.triangles[triangle][k]);
+    const auto corner = [&](std::size_t face, std::size_t k) {
+        return data.uv.at(data.triangles[face][k]);
     };
     CHECK(corner(0, 1) == Vec2{0.3f, 0.4f});
     CHECK(corner(0, 2) == Vec2{0.5f, 0.6f});

@@ -109,8 +109,8 @@ struct ProgressiveState {
 /// mean, divided by n(n - 1), therefore estimates the variance of the mean. The
 /// estimate is a little too large, because the expected values of the passes change
 /// with the radius: for alpha = 2/3, the excess is the squared bias of the mean divided
-/// by 3n. The estimate **does not contain the bias itself**, because all passes are
-/// blurred alike.
+/// by 3n. The estimate **does not contain the bias itself**: it measures only how much
+/// the passes differ.
 struct ProgressiveError {
     double pixels = 0; ///< Standard error of a pixel: root mean square over all pixels.
     double blocks = 0; ///< Standard error of a block's mean, which includes the
