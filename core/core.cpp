@@ -1,5 +1,5 @@
-// The library ljus::core: instantiates the templates listed in ljus/core.hpp. To
-// compile it without CMake:
+// The library ljus::core: instantiates the templates listed in ljus/core.hpp, and two
+// more at the end of this file. To compile it without CMake:
 //
 //     g++ -std=c++20 -O3 -ffp-contract=off -fopenmp -Iinclude -c core/core.cpp
 //     g++ -std=c++20 -O2 -fopenmp -Iinclude -DLJUS_CORE app.cpp core.o
@@ -21,7 +21,7 @@
 #include "ljus/core.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 
-// Programs that include the header of such a search declare it there.
+// The headers of these two declare them for programs that define LJUS_CORE.
 namespace ljus {
 
 template std::optional<Rgb> interpolate(const IrradianceCache&, const Vec3&,

@@ -366,9 +366,9 @@ TEST_CASE("exr: colours of other primaries become those of sRGB, cubes are refus
                       layer.name == "N" ? colors : Image{3, 1, row.colors}) < 3e-4f);
     }
     save_in({});
-    CHECK(refusal_of(file) ==
-          file + " has chromaticities of which red, green and blue together are not "
-                 "white.");
+    CHECK(refusal_of(file) == file + " has chromaticities that are not three primaries "
+                                     "and a white; save it with those "
+                                     "of sRGB.");
     save_with("envmap", {0}); // latitude and longitude
     CHECK(refusal_of(file) == "accepted");
     save_with("envmap", {1});

@@ -265,6 +265,9 @@ TEST_CASE("load_ply: a file that cannot be right is refused with a sentence") {
         {as("vertex 3", "vertex -3"),
          "its header has -3 elements vertex; there must be a whole number of them, at "
          "most 1e9."},
+        {as("vertex 3", "vertex 3,000"),
+         "its header has 3,000 elements vertex; there must be a whole number of them, "
+         "at most 1e9."},
         {as("vertex 3", "vertex"),
          "its header has  elements vertex; there must be a whole number of them, at "
          "most 1e9."},

@@ -753,6 +753,18 @@ TEST_CASE("texture: colours of other profiles become linear sRGB, or are refused
     is(png_with(with_adobe, "sRGB", {0}), {0.57750f, 0.12748f, 0.03188f});
     CHECK(trouble_with(png_with(png, "cHRM", numbers_of({0, 0, 0, 0, 0, 0, 0, 0}))) ==
           other("its cHRM chunk"));
+    // Three primaries nearly on a line: the matrix would magnify by 80 000.
+    CHECK(trouble_with(png_with(
+              png, "cHRM",
+              numbers_of({33000, 33000, 70000, 30000, 50000, 40000, 30000, 50001}))) ==
+          other("its cHRM chunk"));
+    // A colour that is not finite has no matrix.
+    const float infinite = std::numeric_limits<float>::infinity();
+    std::vector<Rgb> sun{{infinite, 1, 2}, Rgb{1}};
+    detail::convert(sun, *detail::to_srgb(detail::p3_primaries),
+                    std::numeric_limits<float>::max());
+    CHECK(sun[0] == Rgb{infinite, 1, 2});
+    CHECK(max_component(glm::abs(sun[1] - Rgb{1})) < 1e-6f);
     is(png_with(with_adobe, "cICP", numbers_of({0x090d0001})),
        {0.88186f, 0.07217f, 0.01238f});
     is(png_with(png, "cICP", numbers_of({0x0c0d0001})), {0.67884f, 0.10851f, 0.01367f});

@@ -129,8 +129,8 @@ ljus_break_it(NAME photon-mapping-edges-said HEADER inspect/scene_remarks.hpp
     CASES "photon mapping: light that small*")
 ljus_break_it(NAME photon-mapping-caustics-said HEADER inspect/scene_remarks.hpp
     TEST photon_mapping_steps
-    FROM "if (beyond > 0.2)"
-    TO   "if (beyond > 0.9)"
+    FROM "!mapper.passes().gloss_as_mirrors)"
+    TO   "mapper.passes().gloss_as_mirrors)"
     CASES "photon mapping: light that small*")
 
 # A ray of its own to lamps was given up, and the next one forgets them.

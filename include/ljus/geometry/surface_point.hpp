@@ -24,8 +24,8 @@ struct SurfacePointT {
     Vec3T<T> position{T(0)}; ///< The position, in scene units.
     Vec3T<T> error{T(0)};    ///< Bound on the rounding error of each coordinate.
     Vec3T<T> normal{T(0), T(0), T(1)}; ///< Geometric unit normal; points outwards.
-    T tilt = T(0); ///< On a flat shape, how much its test magnifies rounding errors;
-                   ///< see detail::add_tilt(). 0 on other shapes.
+    T tilt = T(0); ///< On a flat shape in double, how much its test magnifies rounding
+                   ///< errors; see detail::add_tilt(). Otherwise 0.
 };
 using SurfacePoint = SurfacePointT<float>; ///< SurfacePointT in float.
 

@@ -241,13 +241,16 @@ moving_remarks([[maybe_unused]] const W& world, [[maybe_unused]] bool caustics,
 }
 
 /// A line, with a line feed, about the result of edge_loss(); empty if little is lost.
-[[nodiscard, gnu::cold]] inline std::string edge_remark(double lost, float radius) {
+/// \param setting  The name of the estimate's settings.
+/// \param remedy   The light that is lost, and what to do.
+[[nodiscard, gnu::cold]] inline std::string edge_remark(double lost,
+                                                        std::string_view setting,
+                                                        float radius,
+                                                        std::string_view remedy) {
     if (!(lost > 0.2)) return {};
-    return join(
-        {"some object is so small for general_estimate.radius = ", to_text(radius),
-         " that its edges lose about ", to_text(std::llround(100 * lost)),
-         " % of the light between surfaces; trace more photons, or let rays "
-         "carry it\n"});
+    return join({"some object is so small for ", setting, ".radius = ", to_text(radius),
+                 " that its edges lose about ", to_text(std::llround(100 * lost)),
+                 " % of ", remedy, "\n"});
 }
 
 /// The number of materials with a roughness `sigma` above 1.6 radians. Such an angle
@@ -531,18 +534,17 @@ template <typename Mapper>
         lines += detail::edge_remark(
             edge_loss(mapper.world(), mapper.maps().general, settings.general_estimate,
                       one_kind(PhotonKind::indirect), settings.general.seed),
-            settings.general_estimate.radius);
-    if (!mapper.passes().caustics_map || settings.caustics_estimate.nearest > 0)
-        return lines;
-    const double beyond =
-        edge_loss(mapper.world(), mapper.maps().caustics, settings.caustics_estimate,
-                  one_kind(PhotonKind::caustic), settings.caustics.seed);
-    if (beyond > 0.2)
-        lines += detail::join(
-            {"some object is so small for caustics_estimate.radius = ",
-             to_text(settings.caustics_estimate.radius), " that about ",
-             to_text(std::llround(100 * beyond)),
-             " % of its caustics fall beyond its edges; choose a smaller radius\n"});
+            "general_estimate", settings.general_estimate.radius,
+            "the light between surfaces; trace more photons, or let rays carry it");
+    // With gloss_as_mirrors, estimates are divided by part_of_caustics().
+    if (mapper.passes().caustics_map && settings.caustics_estimate.nearest == 0 &&
+        !mapper.passes().gloss_as_mirrors)
+        lines += detail::edge_remark(
+            edge_loss(mapper.world(), mapper.maps().caustics,
+                      settings.caustics_estimate, one_kind(PhotonKind::caustic),
+                      settings.caustics.seed),
+            "caustics_estimate", settings.caustics_estimate.radius,
+            "its caustics; choose a smaller radius, or trace more photons");
     return lines;
 }
 

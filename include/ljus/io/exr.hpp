@@ -184,7 +184,7 @@ public:
                 for (Rgb& color : image.pixels) color = Rgb{color.x};
             else if (wanted[i].channels[0] == "R")
                 convert(image.pixels, matrix_of(wanted[i].part),
-                        std::numeric_limits<float>::infinity());
+                        std::numeric_limits<float>::max());
             const Window window = window_of(wanted[i].part);
             const Window shown = shown_of(wanted[i].part);
             if (window == shown) continue;
@@ -230,7 +230,7 @@ private:
             {"is damaged, or not an EXR file that can be read: ", why, ", ", where}));
     }
 
-    // Converts the colours of a part into sRGB.
+    // The matrix that converts the colours of a part into linear sRGB.
     [[nodiscard]] glm::dmat3 matrix_of(int part) const {
         exr_attr_chromaticities_t is{};
         if (exr_attr_get_chromaticities(file_.context, part, "chromaticities", &is) !=
@@ -240,8 +240,8 @@ private:
             to_srgb(Primaries{is.red_x, is.red_y, is.green_x, is.green_y, is.blue_x,
                               is.blue_y, is.white_x, is.white_y});
         if (!matrix)
-            refuse("has chromaticities of which red, green and blue together are not "
-                   "white");
+            refuse("has chromaticities that are not three primaries and a white; save "
+                   "it with those of sRGB");
         return *matrix;
     }
 
@@ -571,11 +571,14 @@ LayerT<T> layer_in(LayerT<float>&& layer) {
 ///         same layer name form a layer; every other channel is a layer of its own. If
 ///         the file has several parts, a channel without a layer name has the name of
 ///         its part. A layer has the pixels of its part's display window; those that
-///         the file does not store are 0. Colours of other primaries than those of sRGB
-///         are converted; their channels are at least 0, also outside of sRGB's gamut.
+///         the file does not store are 0. If the file names other primaries than those
+///         of sRGB, every layer of channels R, G and B is converted, and its channels
+///         are then at least 0. Normals and positions must be stored as X, Y and Z.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is
 ///         damaged, has no layer, or has more than 2^27 pixels in all layers together.
-/// \cost Memory: 12 bytes per pixel and layer in float, and at most 256 MB for a chunk.
+/// \cost Memory: 12 bytes per pixel and layer in float, of the data window or the
+///       display window, whichever is larger; the same again for one layer at a time if
+///       the two differ; and at most 256 MB for a chunk.
 template <std::floating_point T = float>
 [[nodiscard]] std::vector<LayerT<T>> load_exr_layers(const std::string& path) {
     const Bytes bytes = load_file(path, detail::max_exr_file, "\x76\x2f\x31\x01");
@@ -588,7 +591,8 @@ template <std::floating_point T = float>
 
 /// Loads one layer of an EXR file, such as "albedo". With an empty name, loads the
 /// picture itself: in colour from channels R, G and B, or in grey from a channel Y.
-/// \return As a layer of load_exr_layers(). Pixels may be negative, infinite or NaN.
+/// \return As a layer of load_exr_layers(). Pixels may be infinite or NaN, and negative
+///         unless they were converted.
 /// \throws std::runtime_error  as load_exr_layers(); or if the file lacks the layer
 ///         (the message lists its layers), is a cube map, has more than 2^25 pixels,
 ///         or, for an empty name, has colours beside the luminance Y.

@@ -160,8 +160,8 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 ///         header. Colours of other primaries than those of sRGB are converted; their
 ///         channels are at least 0, also outside of sRGB's gamut.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
-///         an unsupported kind (XYZE, a gamma, another pixel order), or is shorter or
-///         longer than its header says.
+///         an unsupported kind (XYZE, primaries that give no white, a gamma, another
+///         pixel order), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
@@ -178,7 +178,9 @@ template <std::floating_point T = float>
             const auto numbers = detail::header_numbers(line, 10);
             const std::vector<double> unknown(8); // so written by image editors
             if (numbers != unknown) primaries = detail::to_srgb(numbers);
-            if (!primaries) reader.fail(says + ", which are no primaries and white");
+            if (!primaries)
+                reader.fail(says + ", which are not x and y of red, green, blue and "
+                                   "white; remove the line if the colours are sRGB");
         }
         if (line.starts_with("GAMMA=") &&
             detail::header_numbers(line, 6) != std::vector<double>{1.0})

@@ -239,13 +239,16 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
 /// \param content What is read from the picture.
 /// \return Colours or numbers in [0, 1]. Colours of another space than sRGB, such as
 ///         Display P3 or Adobe RGB, are converted, if the file declares them by a
-///         profile of curves and a matrix, or by the primaries and the gamma of its
-///         header. Channels of colours outside of sRGB's gamut are limited to 0 and 1.
-///         The picture is turned upright by its EXIF orientation. A pixel whose index
-///         is beyond the end of the palette is black.
+///         profile of curves and a matrix, by primaries and a gamma in its header, by
+///         the numbers of a cICP chunk, or by EXIF data. Channels of colours outside of
+///         sRGB's gamut are limited to 0 and 1. The picture is turned upright by its
+///         EXIF orientation. A pixel whose index is beyond the end of the palette is
+///         black.
 /// \throws std::runtime_error  with path and reason, if the file is not a picture or is
-///         too large, or if colours are read whose profile consists of tables or is
-///         neither for RGB nor for grey; std::bad_alloc if there is not enough memory.
+///         too large, or if colours are read that cannot be converted: those of a
+///         profile of tables, or neither for RGB nor for grey, or in another file, or
+///         of primaries that give no white; std::bad_alloc if there is not enough
+///         memory.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> decode_image(const Bytes& bytes, const std::string& path,
                                      long long others = 0,

@@ -134,7 +134,8 @@ private:
     }
     void read_element_line(Words words) {
         const std::string_view name = words.next(), count = words.next();
-        const double number = number_of(count);
+        const bool plain = count.find(',') == count.npos; // not 1,000
+        const double number = plain ? number_of(count) : -1;
         if (!(number >= 0 && number <= 1e9 && number == std::floor(number)))
             refuse(join({"its header has ", shown(std::string(count)), " elements ",
                          shown(std::string(name)),

@@ -161,7 +161,8 @@ concept Material = std::floating_point<typename M::Scalar> &&
 
 /// \name A material around another one
 /// A wrapper scatters like its base. It needs check(), the functions that it adds to
-/// the base, and each function of material_hooks() that its base has.
+/// the base, and the functions of material_hooks() that its base has, with the
+/// exceptions of keeps_hooks.
 /// \{
 
 /// A material that declares `static constexpr bool scatters_as_base = true` and has a

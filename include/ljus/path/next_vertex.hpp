@@ -452,9 +452,9 @@ template <AnyWorld W, std::floating_point T>
 ///         otherwise the product of the transmittances of thin surfaces and of fog
 ///         between the points. A surface inside a body of higher priority does not
 ///         occlude.
-/// \cost One call of occluded(). If the scene has thin surfaces, or if a hidden surface
-///       lies between the points, there are calls of closest_hit() as well: one more
-///       than there are surfaces between the points.
+/// \cost One call of occluded(). If a hidden surface lies between the points, there are
+///       calls of closest_hit() as well, one more than there are surfaces between them.
+///       If the scene has thin surfaces, there are only these calls.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
@@ -703,7 +703,8 @@ inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
 /// disperses light, the throughput is also multiplied by the colour of the wavelength
 /// that is chosen there. The stream is advanced to the start of the bounce; one number
 /// is drawn per thin surface, and one if a wavelength is chosen.
-/// \return The vertex; nothing if the path leaves the scene.
+/// \return The vertex; nothing if the path leaves the scene, or if it meets more than
+///         max_thin_surfaces surfaces, which makes its throughput 0.
 // [next_vertex]
 template <AnyWorld W, std::floating_point T, StreamLike Stream>
 [[nodiscard]] std::optional<VertexT<T>> next_vertex(const W& world, PathStateT<T>& path,

@@ -244,8 +244,8 @@ struct AllAlike {
 /// \param world   The closed scene.
 /// \param pass    The settings of the picture's pass. The pilot sends a twentieth of
 ///                the photons of that pass, at most 20 000 per light. If that is less
-///                than 200 per light, the pilot sends more, up to a quarter of the
-///                photons of that pass.
+///                than 200 per light, it sends 200 per light, but at most a quarter of
+///                the photons of that pass.
 /// \param map     The kind of map.
 /// \param weight  Called with each photon; returns \f$ w_i \f$, at least 0.
 /// \return One fraction per light, with the sum 1, for

@@ -59,7 +59,7 @@ template <AnyWorld W, std::floating_point T = typename W::Scalar>
 namespace detail {
 
 /// The fraction of an aimed light's photons that is sent into the cone. The remaining
-/// eighth is sent in all directions, because objects may lie outside the cone. A photon
+/// eighth leaves as without aiming, because objects may lie outside the cone. A photon
 /// has at most eight times the flux that it would have if no photon were aimed.
 inline constexpr double part_in_cone = 7.0 / 8;
 

@@ -174,9 +174,9 @@ FlatShapesT<T> read_triangles(const JsonField& field) {
 }
 
 /// Limits for mesh files that a scene names several times. A file is read again only
-/// for another scale, other normals or other materials. A scene may cause at most 16
-/// such readings, of all its files together. Otherwise the meshes of a file are copied;
-/// the copies have at most 2^22 triangles together.
+/// for another scale, other normals or other materials: at most 16 times for meshes,
+/// and 16 times for instances. Otherwise its meshes are copied; all copies in a scene
+/// have at most 2^22 triangles together.
 inline constexpr std::size_t max_mesh_readings = 16, max_copied_triangles = 1 << 22;
 
 /// The largest number of triangles of all instances together. The area of a stretched

@@ -475,12 +475,12 @@ LoadedMeshT<T> make_meshes(const std::string& file, const MeshFileSettings& sett
     const T step = std::nextafter(far, std::numeric_limits<T>::infinity()) - far;
     const T size = max_component(box.high - box.low);
     if (step > size / T(10000))
-        loaded.report.notes.push_back(join(
-            {"the mesh is ", to_text(double(size)),
-             " large, but so far from the "
-             "origin that coordinates are rounded to steps of ",
-             to_text(double(step)),
-             "; move it to the origin before it is saved, or load it in double."}));
+        loaded.report.notes.push_back(
+            join({"the mesh is ", to_text(double(size)),
+                  " large, but so far from the origin that coordinates are rounded to "
+                  "steps of ",
+                  to_text(double(step)), "; move it to the origin before it is saved",
+                  sizeof(T) < sizeof(double) ? ", or load it in double." : "."}));
     return loaded;
 }
 

@@ -153,7 +153,8 @@ private:
 };
 
 // The number that a word spells; 0 if it is too small for double, NaN for no number.
-// Some programs write a comma for the point, as their user's language has it.
+// Some programs write a comma for the point, as their user's language has it; 1,000 is
+// therefore 1.
 inline double number_of(std::string_view word) {
     if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
     double value = 0;

@@ -20,10 +20,12 @@
 
 namespace ljus::detail {
 
-constexpr Primaries p3_primaries{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
-constexpr Primaries adobe_primaries{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.329};
-constexpr Primaries rec2020_primaries{0.708, 0.292, 0.17,   0.797,
-                                      0.131, 0.046, 0.3127, 0.329};
+inline constexpr Primaries p3_primaries{0.68, 0.32, 0.265,  0.69,
+                                        0.15, 0.06, 0.3127, 0.329};
+inline constexpr Primaries adobe_primaries{0.64, 0.33, 0.21,   0.71,
+                                           0.15, 0.06, 0.3127, 0.329};
+inline constexpr Primaries rec2020_primaries{0.708, 0.292, 0.17,   0.797,
+                                             0.131, 0.046, 0.3127, 0.329};
 
 // How the bytes of a picture become linear sRGB: by a curve for each channel, then by a
 // matrix.
@@ -153,7 +155,7 @@ ByteColors png_colors(const Bytes& file, Inflate inflate) {
     std::size_t by_number = 0, profile = 0, profile_size = 0, srgb = 0, primaries = 0;
     double gamma = 0;
     find_png_chunk(file, [&](std::string_view name, std::size_t at, std::size_t size) {
-        if (name == "cICP") by_number = at;
+        if (name == "cICP" && size == 4) by_number = at;
         if (name == "iCCP") profile = at, profile_size = size;
         if (name == "sRGB") srgb = at;
         if (name == "cHRM" && size == 32) primaries = at;
@@ -172,7 +174,7 @@ ByteColors png_colors(const Bytes& file, Inflate inflate) {
         if (space == 9) colors.matrix = to_srgb(rec2020_primaries);
         if (space == 12) colors.matrix = to_srgb(p3_primaries);
         if ((space != 1 && space != 9 && space != 12) || (curve != 8 && curve != 13) ||
-            png_number(file, by_number) % 65536 != 1)
+            byte_at(file, by_number + 2) != 0 || byte_at(file, by_number + 3) != 1)
             colors.matrix.reset();
     } else if (profile != 0) {
         // The profile follows its name and one byte for the method of packing.

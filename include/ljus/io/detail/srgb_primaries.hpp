@@ -20,7 +20,8 @@ namespace ljus::detail {
 
 // Primaries and white, as (x, y) of red, green, blue and white.
 using Primaries = std::array<double, 8>;
-constexpr Primaries srgb_primaries{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329};
+inline constexpr Primaries srgb_primaries{0.64, 0.33, 0.3,    0.6,
+                                          0.15, 0.06, 0.3127, 0.329};
 
 // The columns X, Y, Z of red, green and blue that give white together. They are adapted
 // to the white D50 by Bradford's method, as in colour profiles (ICC.1:2022, annex E).
@@ -44,12 +45,15 @@ constexpr Primaries srgb_primaries{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.3
 }
 
 // The matrix into linear sRGB from such columns; nothing if their luminances do not add
-// to 1. For columns that are approximately those of sRGB it is the identity.
+// to 1, or if they lie nearly in one plane. For columns that are approximately those of
+// sRGB it is the identity.
 [[nodiscard]] inline std::optional<glm::dmat3> to_srgb(const glm::dmat3& columns) {
     const glm::dmat3 matrix = glm::inverse(columns_in_d50(srgb_primaries)) * columns;
     const auto off = [&](int k) { return glm::distance(matrix[k], glm::dmat3{1}[k]); };
     if (!(std::abs(columns[0].y + columns[1].y + columns[2].y - 1) < 0.1))
         return std::nullopt;
+    for (int k = 0; k < 3; ++k) // at most 3.3 for the primaries X, Y and Z
+        if (!(glm::length(matrix[k]) < 10)) return std::nullopt;
     return off(0) + off(1) + off(2) < 0.02 ? glm::dmat3{1} : matrix;
 }
 
@@ -65,14 +69,14 @@ constexpr Primaries srgb_primaries{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.3
 }
 
 // Converts colours by such a matrix. Channels of colours outside of sRGB's gamut are
-// limited to 0 and `most`.
+// limited to 0 and `most`. A colour with a channel that is not finite is left as it is.
 template <typename T>
-void convert(std::vector<RgbT<T>>& colors, const glm::dmat3& to_srgb, T most) {
-    if (to_srgb == glm::dmat3{1}) return; // also keeps infinite channels
+void convert(std::vector<RgbT<T>>& colors, const glm::dmat3& matrix, T most) {
+    if (matrix == glm::dmat3{1}) return;
     for (RgbT<T>& color : colors) {
-        const glm::dvec3 c = to_srgb * glm::dvec3(color);
-        for (int k = 0; k < 3; ++k)
-            color[k] = c[k] < 0 ? T(0) : c[k] > double(most) ? most : T(c[k]);
+        if (!is_finite(color)) continue;
+        const glm::dvec3 c = matrix * glm::dvec3(color);
+        for (int k = 0; k < 3; ++k) color[k] = T(std::clamp(c[k], 0.0, double(most)));
     }
 }
 
