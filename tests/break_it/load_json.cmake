@@ -39,7 +39,7 @@ ljus_break_it(NAME json-loss-tables HEADER io/detail/json_materials.hpp TEST loa
 # A mesh file that is named again is read again.
 ljus_break_it(NAME json-mesh-once HEADER io/detail/json_objects.hpp TEST load_json
     FROM "if (!reading.named.same_reading(named)) continue;"
-    TO   "if (reading.named.scale > 0) continue;"
+    TO   "if (reading.named.settings.scale > 0) continue;"
     CASES "load_json: a mesh file is read once*")
 
 # A file takes the memory of as many skies as it names.
