@@ -437,13 +437,13 @@ TEST_CASE("nested bodies: a normal map changes neither index nor priority") {
     const auto overlapping = picture(Nested<Glass>{glass, {2}}, 0.5);
     CHECK(overlapping != picture(Nested<Glass>{glass, {0}}, 0.5));
     CHECK(picture(Nested<Dented>{{glass, flat}, {2}}, 0.5) == overlapping);
-    CHECK(picture(Over{{glass, 2}, flat}, 0.5) == overlapping);
+    CHECK(picture(Over{{glass, {2}}, flat}, 0.5) == overlapping);
     const auto in_contact = picture(glass, 1);
     CHECK(picture(Dented{glass, flat}, 1) == in_contact);
 
     const NormalMap slope{{.image = make_image(1, 1, Rgb{0.7f, 0.5f, 0.9f})}};
     CHECK(picture(Nested<Dented>{{glass, slope}, {2}}, 0.5) ==
-          picture(Over{{glass, 2}, slope}, 0.5));
+          picture(Over{{glass, {2}}, slope}, 0.5));
     CHECK(picture(Nested<Dented>{{glass, slope}, {2}}, 0.5) != overlapping);
 }
 
