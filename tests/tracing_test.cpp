@@ -563,14 +563,15 @@ TEST_CASE("tracing: through a ball of glass a sun sends what parallel light does
     scene.add(SunLight{.direction{0, -1, 0}, .irradiance = Rgb{1}});
     const World world(std::move(scene));
     using enum PhotonSampling;
-    for (const auto& [radius, numbers] :
+    for (const auto& row :
          {std::pair{0.1, random}, {0.4, random}, {0.9, random}, {0.4, sobol}}) {
-        const Mean through =
-            stored_flux(world, MapType::caustics,
-                        {.photons = 20000, .numbers = numbers, .threads = 1}, 16,
-                        [r = radius](const Photon& p) {
-                            return std::hypot(p.position.x, p.position.z) < float(r);
-                        });
+        const double radius = row.first;
+        const Mean through = stored_flux(
+            world, MapType::caustics,
+            {.photons = 20000, .numbers = row.second, .threads = 1}, 16,
+            [radius](const Photon& p) {
+                return std::hypot(p.position.x, p.position.z) < float(radius);
+            });
         // Light reflected inside an even number of times may land there as well: F^2.
         const double right = pi * straight_through(1.5, 1.5, radius);
         CAPTURE(radius);
