@@ -25,8 +25,8 @@ namespace ljus {
 /// units, and `uv` are the coordinates of the point on its own shape, see
 /// texture_coordinates(). A type receives `uv` only if it declares
 /// `static constexpr bool uses_uv = true`; otherwise `uv` is (0, 0). The textures
-/// Checker and Picture repeat with period 1 in u and in v; PictureWrap has alternatives
-/// for pictures.
+/// Checker and PictureTexture repeat with period 1 in u and in v; PictureWrap has
+/// alternatives for pictures.
 /// \{
 
 /// Projects each point of a surface orthogonally onto a plane.

@@ -90,7 +90,6 @@
 #include <string>
 #include <string_view>
 
-#include "ljus/image/color.hpp"
 #include "ljus/image/image.hpp"
 #include "ljus/io/detail/picture_colors.hpp"
 #include "ljus/io/detail/picture_damage.hpp"

@@ -70,8 +70,8 @@ struct PhotonMapsT {
     PhotonMapT<T> caustics; ///< Photons L S+ D; empty without a caustics pass.
     PhotonMapT<T> lone;     ///< The lone_photons() of the caustics map; empty unless
                             ///< PhotonMappingSettings::lone_radius is above 1.
-    PhotonMapT<T> general;  ///< Direct photons L D, indirect photons D ... D and shadow
-                            ///< photons; empty if no general map is made.
+    PhotonMapT<T> general;  ///< Direct photons L D, indirect photons L ... D ... D and
+                            ///< shadow photons; empty if no general map is made.
     VolumeMapT<T> fog_caustics; ///< Photons L S+ D where D is fog; empty without fog.
     VolumeMapT<T> fog; ///< Photons L ... D ... D where the last D is fog; empty without
                        ///< fog.
