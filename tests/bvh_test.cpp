@@ -313,6 +313,13 @@ TEST_CASE("bvh: the split is the cheapest of all between 16 slots on three axes"
     detail::PrimitiveRangeT<float> range{.last = 5};
     for (const auto& ref : equal) range.take(ref);
     CHECK(detail::best_split(equal, range, 1).axis == -1);
+    // The sum of the ends of a box may be more than a float holds.
+    detail::GrowingArray<detail::PrimitiveRefT<float>> far;
+    for (const float x : {1.9e38f, 3e38f})
+        far.push_back({{{x, 0, 0, 0, -1.1f * x, -1e37f, -1e37f, 0}}, 0});
+    range = {.last = 2};
+    for (const auto& ref : far) range.take(ref);
+    CHECK(detail::best_split(far, range, 1).axis == 0);
     CHECK(detail::tests_of(8, 8) == 1);
     CHECK(detail::tests_of(9, 8) == 2);
     CHECK(detail::tests_of(7, 1) == 7);

@@ -57,6 +57,12 @@ Ray down_on(int column, int row, int fields) {
             .direction{0, -1, 0}};
 }
 
+/// How open it is, as a number.
+struct Veil : Lambertian {};
+float is_open(const Veil&, const Vec3&, const Vec2&) {
+    return 0.5f;
+}
+
 } // namespace
 
 TEST_CASE("cut-out: rays go through the holes of each shape, and meet what is behind") {
@@ -204,6 +210,8 @@ TEST_CASE("cut-out: a camera sees through it, and colours stay where they are") 
     const Textured<UvGrid, UvPicture> red{grid(2), {.image = make_image(1, 1, Rgb{1})}};
     static_assert(CutOutMaterial<std::remove_cvref_t<decltype(red)>>);
     static_assert(CutOutMaterial<UvGrid> && !CutOutMaterial<Lambertian>);
+    CHECK(is_open(Veil{}, Vec3{0}, Vec2{0}) == 0.5f);
+    CHECK_FALSE(CutOutMaterial<Veil>);
     CHECK(material_at(red, Vec3{0}, Vec2{0.2f}).albedo == Rgb{1});
     CHECK(is_open(red, Vec3{0}, Vec2{0.2f, 0.7f}));
     CHECK_FALSE(is_open(red, Vec3{0}, Vec2{0.2f, 0.2f}));

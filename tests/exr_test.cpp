@@ -195,6 +195,14 @@ TEST_CASE("exr: several parts, a data window of its own, and a grey picture") {
             CHECK(pixel(parts[1].image, x, y).x ==
                   (x < 2 || y < 3 ? 0.0f : float(x + 100 * y)));
     CHECK(load_exr(input("parts"), "depth.Z").pixels == parts[1].image.pixels);
+    // Tiles of 4 x 2 pixels, in a part that is a cube.
+    REQUIRE_NOTHROW((void)load_exr(input("cube"), "picture"));
+    const auto cube = load_exr_layers(input("cube"));
+    REQUIRE(cube.size() == 2);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 6; ++x)
+            CHECK(pixel(cube[1].image, x, y) == input_color(x, y));
+    CHECK_THROWS_AS((void)load_exr(input("cube"), "faces"), std::runtime_error);
     CHECK(refusal_of(input("parts")) ==
           input("parts") + " has no picture of R, G and B; it has 'beauty' 'depth.Z': "
                            "load one by its name, or save it as R, G and B.");

@@ -325,6 +325,7 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     const std::string start = "#?RADIANCE\n", row(12, '\x40');
     const std::string only = "; only -Y +X is supported.";
     CHECK(message(start + "\n-Y 1 +X 3\n" + row) == "loaded");
+    CHECK(message(start + "\n-Y 1 +X\t3 \t\n" + row) == "loaded");
     CHECK(message(start + "\n+Y 1 +X 3\n" + row) == "its rows go +Y +X" + only);
     CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
     CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);

@@ -471,7 +471,11 @@ TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {
         light["extensions"]["KHR_lights_punctual"]["light"] = i;
         file.all["nodes"].push_back(light);
     }
-    file.all["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5};
+    // A sun in a node of no size shines nowhere.
+    light["extensions"]["KHR_lights_punctual"]["light"] = 1;
+    light["scale"] = {0, 0, 0};
+    file.all["nodes"].push_back(light);
+    file.all["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5, 6};
     const auto loaded = read(file, {.scale = 3});
     REQUIRE(loaded.cameras.size() == 1);
     CHECK(loaded.cameras[0].name == "front");
@@ -481,6 +485,8 @@ TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {
     CHECK(to_text(loaded.report)
               .find("cameras[1] is no perspective camera; it is left "
                     "out.") != std::string::npos);
+    CHECK(to_text(loaded.report).find("is left out: sun light.direction is") !=
+          std::string::npos);
     REQUIRE(loaded.points.size() == 1);
     CHECK(loaded.points[0].position == Vec3{6, 0, 0});
     CHECK(loaded.points[0].intensity == Rgb{72, 36, 0}); // 8 * 3^2

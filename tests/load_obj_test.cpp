@@ -272,11 +272,13 @@ TEST_CASE(
     // Of the first, the corner before an ear is an ear no longer when that is cut off.
     // Of the second, the fourth corner lies between the first and the third: were the
     // second one cut off there, what is left would have no area. The third is two
-    // triangles that meet in the fourth corner, on the first side.
+    // triangles that meet in the fourth corner, on the first side. The fourth corner of
+    // the last is on the line from the third to the first.
     const Corners polygons[] = {
         {{7, 8, 0}, {6, 6, 0}, {6, 3, 0}, {1, 2, 0}, {7, 0, 0}, {6, 2, 0}},
         {{6, 4, 0}, {6, 5, 0}, {4, 6, 0}, {5, 5, 0}, {1, 1, 0}},
-        {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}}};
+        {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0, 0}, {0, 4, 0}},
+        {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}}};
     for (const Corners& polygon : polygons)
         for (std::size_t first = 0; first < polygon.size(); ++first) {
             CAPTURE(first);

@@ -173,6 +173,13 @@ TEST_CASE("mesh: finer triangles come to the sphere") {
     CHECK(area(fine) == doctest::Approx(area(unit_ball)).epsilon(1e-3));
     CHECK(bounding_sphere(fine).radius == doctest::Approx(1).epsilon(1e-5));
     CHECK(glm::length(bounding_sphere(fine).center) < 1e-5f);
+    for (const float place : {-1000.0f, 0.0f, 1000.0f}) {
+        const Mesh mesh(icosphere(Sphere{.center = Vec3{place}, .radius = 1}, 2));
+        const Sphere ball = bounding_sphere(mesh);
+        for (const Vec3& p : mesh.data().positions)
+            REQUIRE(glm::distance(glm::dvec3(p), glm::dvec3(ball.center)) <=
+                    ball.radius);
+    }
 }
 
 TEST_CASE("mesh: smooth_normals() finds the normals of a sphere and of a ring") {

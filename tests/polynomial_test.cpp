@@ -402,6 +402,10 @@ TEST_CASE(
     CHECK(detail::root_between(Line{{1, 0}}, 0.0, 1.0) == doctest::Approx(1));
     CHECK(detail::root_between(Line{{-1, 3}}, 0.0, 1.0) == 0.25);
     CHECK(detail::root_between(Line{{1, -3}}, 0.0, 1.0) == 0.25);
+    // From 1, Newton's method would go to 1.25.
+    using Quartic = detail::BernsteinT<double, 4>;
+    CHECK(detail::root_between(Quartic{{19, 7, 19, -2, -1}}, 0.0, 1.0) ==
+          doctest::Approx(0.883408780790739).epsilon(1e-14));
     // Within a part: 1/4 is the only one of three roots.
     const auto three = on_interval(std::array{-3.0 / 32, 11.0 / 16, -3.0 / 2, 1.0}, 0.0,
                                    1.0); // 1/4, 1/2, 3/4

@@ -54,6 +54,13 @@ struct Pairs {
 
 constexpr int many = 1 << 17;
 
+/// A stream whose numbers are double where float is asked for.
+struct DoubleStream : RandomStream {};
+template <std::floating_point T>
+double next_1d(DoubleStream&) {
+    return 0.5;
+}
+
 } // namespace
 
 TEST_CASE("random: the generator is SplitMix64, by its published numbers") {
@@ -151,6 +158,8 @@ TEST_CASE("random: points are made of the numbers in their order") {
     CHECK(next_3d(c) == Vec3{x, y, z});
     CHECK(b.counter == 2);
     CHECK(c.counter == 3);
+    CHECK(StreamLike<RandomStream>);
+    CHECK_FALSE(StreamLike<DoubleStream>);
 }
 
 TEST_CASE("random: it can be had at compile time") {

@@ -270,8 +270,13 @@ TEST_CASE("scene aim: lights are chosen by the flux that goes to the scene") {
     Stage stage; // a far lamp is 10 000 times as strong, and brings the floor a third
     const D3 far{0, 0, 200}, near{0, 0, 1};
     stage.scene.add(PointLight{.position = Vec3(far), .intensity = Rgb{20000}});
-    stage.scene.add(PointLight{.position = Vec3(near), .intensity = Rgb{2}});
+    const PointLight light{.position = Vec3(near), .intensity = Rgb{2}};
+    stage.scene.add(light);
     const World world(stage.scene);
+    const auto aim = aim_at_scene(world, world.light_choice());
+    for (const float u : {0.1f, 0.5f, 0.9f}) // the near one is not aimed
+        CHECK(aim(1, light, Vec2{u}, Vec2{u}, 0.0f).ray.direction ==
+              emit_photon(light, Vec2{u}, Vec2{u}, 0.0f).ray.direction);
     const auto one = [](const D3&) { return 1.0; };
     const double solid = flux_through(far, -1, 1, one);
     const Means from_far = land_often(world, 2000, 0);

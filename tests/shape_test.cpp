@@ -274,6 +274,8 @@ TEST_CASE("shape: a table of hooks in one line") {
     CHECK(detail::is_stand_in<detail::Own<Open>>);
     CHECK_FALSE(detail::is_stand_in<Open>);
     CHECK(std::is_same_v<Final, detail::Own<Final>>);
+    // The name of a type, and of those within it.
+    CHECK(detail::type_name<Moving<Quad>>().find("ljus::") == std::string::npos);
 }
 
 TEST_CASE("shape: what there is without more said") {

@@ -515,6 +515,10 @@ TEST_CASE("thin film: what is small keeps its digits, and nothing is no film") {
           ljus_test::within(2 * r0 / (1 + r0), 1e-6));
     CHECK(ljus::thick_film(0.0, 1.0) == 0);
     CHECK(ljus::thick_film(0.0, 1.33) == 1);
+    const float c = 0.01f, n = 1.0001f;
+    const Real g2 = Real(n) * Real(n) - 1 + Real(c) * Real(c);
+    CHECK(double(ljus::film_cosine2(c, n)) ==
+          ljus_test::within(g2.convert_to<double>(), 1e-6));
 }
 
 TEST_CASE("observer: what is brighter than the screen is white, below black is black") {

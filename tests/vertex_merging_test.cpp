@@ -344,6 +344,12 @@ TEST_CASE("vertex merging: below a point light two strategies share") {
     CHECK(found.at("merging").error() < 0.05 * light);
     CHECK(found.at("emission").mean == 0);
     CHECK(found.at("connection").mean == 0);
+    const VertexMerger merger(world, settings);
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    Counts counts;
+    auto context = context_of(stream, counts);
+    (void)radiance(merger, down(stream), context);
+    CHECK(counts.map_queries == 1); // the camera path has one surface
 }
 
 TEST_CASE("vertex merging: rooms are those of the path tracer, block by block") {

@@ -40,6 +40,12 @@ ljus_break_it(NAME bvh-cost HEADER accel/detail/bvh_build.hpp TEST bvh
     TO   "above[i]"
     CASES "bvh: the nearer child first*")
 
+# The middle of a far box is infinite.
+ljus_break_it(NAME bvh-middle HEADER accel/detail/bvh_build.hpp TEST bvh
+    FROM "T(0.5) * bounds.side[axis] - T(0.5) * bounds.side[axis + 4]"
+    TO   "T(0.5) * (bounds.side[axis] - bounds.side[axis + 4])"
+    CASES "bvh: the split is the cheapest*")
+
 # Wide boxes without slack.
 ljus_break_it(NAME wide-bvh-slack HEADER accel/detail/bvh8_walk.hpp TEST bvh8
     FROM "8 * std::numeric_limits<float>::epsilon() * reach"

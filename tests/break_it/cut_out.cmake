@@ -51,3 +51,9 @@ ljus_break_it(NAME cut_out-lamp HEADER scene/scene.hpp TEST cut_out
     FROM "require(!CutOutMaterial<B> || is_black(all)"
     TO   "require(true || is_black(all)"
     CASES "cut-out: lamps*")
+
+# Half open is taken for a hole.
+ljus_break_it(NAME cut_out-number HEADER materials/material.hpp TEST cut_out
+    FROM "std::same_as<bool>"
+    TO   "std::convertible_to<bool>"
+    CASES "cut-out: a camera*" COMPILED)

@@ -57,3 +57,15 @@ ljus_break_it(NAME exr-chroma HEADER io/exr.hpp TEST exr
     FROM "reader.require_no_chroma(found->part);"
     TO   ";"
     CASES "exr: several parts*")
+
+# The rows of tiles are counted by the width of a tile.
+ljus_break_it(NAME exr-tile-rows HEADER io/exr.hpp TEST exr
+    FROM "int(y / high)"
+    TO   "int(y / wide)"
+    CASES "exr: several parts*")
+
+# The first part is asked whether another one is a cube.
+ljus_break_it(NAME exr-cube-part HEADER io/exr.hpp TEST exr
+    FROM "reader.require_no_cube(found->part);"
+    TO   "reader.require_no_cube(0);"
+    CASES "exr: several parts*")

@@ -69,3 +69,9 @@ ljus_break_it(NAME file-lfs HEADER io/file.hpp TEST file
     FROM "text.starts_with(\"version https://git-lfs.\")"
     TO   "false"
     CASES "file: a file that stands for*")
+
+# What another thread reads is in the list, too.
+ljus_break_it(NAME file-thread HEADER io/file.hpp TEST file
+    FROM "thread_local FilesRead* list"
+    TO   "static FilesRead* list"
+    CASES "file: a list has what was read*")

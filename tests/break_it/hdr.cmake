@@ -63,3 +63,9 @@ ljus_break_it(NAME hdr-exposure-unknown HEADER io/hdr.hpp TEST hdr
     FROM "numbers == std::vector{0.0}"
     TO   "numbers == std::vector{2.0}"
     CASES "hdr: the exposure*")
+
+# A tab at the end of a line belongs to its last word.
+ljus_break_it(NAME hdr-tab HEADER io/detail/byte_reader.hpp TEST hdr
+    FROM [[find_last_not_of(" \t")]]
+    TO   "find_last_not_of(' ')"
+    CASES "hdr: what is wrong with a header*")

@@ -111,3 +111,9 @@ ljus_break_it(NAME gltf-coded-data HEADER io/detail/gltf_data.hpp TEST load_gltf
     FROM "from_base64(decoded(std::string_view(is).substr(comma + 1)), uri)"
     TO   "from_base64(std::string_view(is).substr(comma + 1), uri)"
     CASES "load_gltf: a mesh is the same*")
+
+# A sun that shines nowhere is loaded.
+ljus_break_it(NAME gltf-light-check HEADER io/detail/gltf_reader.hpp TEST load_gltf
+    FROM "check(made);"
+    TO   ""
+    CASES "load_gltf: cameras and lights*")

@@ -82,6 +82,12 @@ ljus_break_it(NAME polygon-ear-side HEADER geometry/detail/polygon.hpp TEST load
     TO   "turn(a, b, p) > 0"
     CASES "load_obj: an ear is cut off*")
 
+# An ear is cut off though a corner without a turn lies on its last side.
+ljus_break_it(NAME polygon-straight HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "return !(turn(a, b, c) > 0);"
+    TO   "return turn(a, b, c) < 0;"
+    CASES "load_obj: an ear is cut off*")
+
 # A polygon on a line is cut into triangles without an area.
 ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "if (!(glm::dot(across, across) > 0)) return result;"

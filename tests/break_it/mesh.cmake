@@ -57,3 +57,9 @@ ljus_break_it(NAME mesh-blunt-angle HEADER accel/mesh_data.hpp TEST mesh
     FROM "std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b))"
     TO   "std::asin(glm::length(glm::cross(a, b)) / (glm::length(a) * glm::length(b)))"
     CASES "mesh: smooth_normals() finds*")
+
+# Below 0 the sphere is made smaller by its rounding.
+ljus_break_it(NAME mesh-sphere HEADER accel/mesh.hpp TEST mesh
+    FROM "max_component(glm::abs(sphere_.center))"
+    TO   "max_component(sphere_.center)"
+    CASES "mesh: finer triangles*")

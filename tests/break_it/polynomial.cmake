@@ -37,3 +37,9 @@ ljus_break_it(NAME polynomial-lifted-touch HEADER math/polynomial.hpp TEST polyn
     FROM "if (value <= touch && before < u"
     TO   "if (value <= T(0) && before < u"
     CASES "polynomial: a touch is met*")
+
+# A step of Newton's may leave the upper end.
+ljus_break_it(NAME polynomial-upper-end HEADER math/polynomial.hpp TEST polynomial
+    FROM "newton <= b && shorter"
+    TO   "shorter"
+    CASES "polynomial: a root at an end*")

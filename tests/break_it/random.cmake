@@ -9,3 +9,9 @@ ljus_break_it(NAME random-key HEADER math/random.hpp TEST random
     FROM "mix_bits(path + odd)"
     TO   "path"
     CASES "random: the numbers stay*")
+
+# A stream of doubles passes for one of floats.
+ljus_break_it(NAME random-float HEADER math/random.hpp TEST random
+    FROM "{ next_1d<float>(stream) } -> std::same_as<float>;"
+    TO   "next_1d<float>(stream);"
+    CASES "random: points are made*" COMPILED)

@@ -65,3 +65,9 @@ ljus_break_it(NAME scene-aim-black HEADER photons/tracing.hpp TEST scene_aim
     FROM "if (is_black(sent.photon.flux)) {"
     TO   "if (false && is_black(sent.photon.flux)) {"
     CASES "scene aim: no photon leaves*")
+
+# If one light is aimed, all are.
+ljus_break_it(NAME scene-aim-all HEADER photons/scene_aim.hpp TEST scene_aim
+    FROM "!is_aimed.empty() && is_aimed[number]"
+    TO   "!is_aimed.empty()"
+    CASES "scene aim: lights are chosen*")

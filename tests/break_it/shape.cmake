@@ -32,3 +32,9 @@ ljus_break_it(NAME shape-still-time HEADER path/next_vertex.hpp TEST moving
     FROM "if (has_moving(world)) return next_1d"
     TO   "return next_1d"
     CASES "moving: a time is drawn*")
+
+# Only the first namespace in the name of a type is left out.
+ljus_break_it(NAME shape-type-name HEADER hook.hpp TEST shape
+    FROM [[for (std::size_t at; (at = text.find("ljus::")) != std::string::npos;)]]
+    TO   [[if (const std::size_t at = text.find("ljus::"); at != std::string::npos)]]
+    CASES "shape: a table of hooks*")

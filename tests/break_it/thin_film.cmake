@@ -76,3 +76,9 @@ ljus_break_it(NAME gamut-same HEADER optics/cie_observer.hpp TEST thin_film
     FROM "if (keep == T(1)) return c;"
     TO   ""
     CASES "observer: into the gamut*")
+
+# Near grazing, an index near 1 is subtracted from 1.
+ljus_break_it(NAME thin-film-cosine HEADER optics/thin_film.hpp TEST thin_film
+    FROM "cos_theta * cos_theta + (index - T(1)) * (index + T(1))"
+    TO   "index * index - (T(1) - cos_theta * cos_theta)"
+    CASES "thin film: what is small*")

@@ -80,3 +80,10 @@ ljus_break_it(NAME vertex_merging-density HEADER render/vertex_merging.hpp
     FROM "there.pdf * here.cosine / d2"
     TO   "there.pdf * there.cosine / d2"
     CASES "vertex merging: a connection*")
+
+# The questions to the map are not counted.
+ljus_break_it(NAME vertex_merging-queries HEADER render/vertex_merging.hpp
+    TEST vertex_merging
+    FROM "++counts.map_queries;"
+    TO   ""
+    CASES "vertex merging: below a point light*")

@@ -198,15 +198,15 @@ private:
                open.st_dev == named.st_dev && open.st_ino == named.st_ino;
     }
 #endif
-    // Locks the file, on systems with locks. Returns false if another process has taken
-    // the file for an abandoned one before it was locked.
+    // Locks the file, on systems with locks. Returns whether it still has its name:
+    // another process may have taken it for an abandoned file before it was locked.
     [[gnu::cold]] bool lock() {
 #if __has_include(<unistd.h>)
         if (lock_ >= 0) ::close(lock_);
         lock_ = ::fcntl(::fileno(file_), F_DUPFD_CLOEXEC, 0); // keeps the lock
         if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             return false;
-        return name_.empty() || is_named(lock_, name_);
+        return is_named(lock_, name_);
 #else
         return true;
 #endif
