@@ -360,9 +360,7 @@ void run_request(examples::CommandLine& line, Request& r,
     const bool whole = r.part.count == 0 && r.region.empty();
     if (whole && world.size() > 0 && !examples::first_hit_of(r.renderer) &&
         std::all_of(colors.begin(), colors.end(), is_black<T>))
-        tell("every pixel is black: no light reaches what the camera sees; the camera "
-             "may be in a body, or the lamps may face away\n",
-             r);
+        tell("every pixel is black: " + why_black(r, needs(world)) + "\n", r);
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
     save_result(r, to_json(line, r), result, seconds);
     examples::when_stopped_say("'" + r.file + "' is saved");

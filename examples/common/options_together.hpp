@@ -213,6 +213,22 @@ inline void check_options(const CommandLine& line, RenderRequest& r,
     }
 }
 
+/// Why every pixel of a picture may be black, as the end of a sentence.
+/// \param r      The request of the user, with all settings.
+/// \param found  What the scene needs.
+[[nodiscard]] inline std::string why_black(const RenderRequest& r,
+                                           const ljus::SceneNeeds& found) {
+    const bool photons = r.renderer == RendererName::photon;
+    std::string why = "no light reaches what the camera sees; ";
+    if (photons && found.specular > 0 && r.photon.caustics.photons == 0)
+        why += "--caustic-photons 0 leaves out the light from mirrors and glass, ";
+    if (r.photon.max_depth == 1)
+        why += "--depth 1 leaves out the light between surfaces, ";
+    else if (photons && r.photon.indirect == ljus::IndirectLight::none)
+        why += "--indirect none leaves out the light between surfaces, ";
+    return why + "the camera may be in a body, or the lamps may face away";
+}
+
 /// Finds the pixels of --slice or --region, and the layers of --layers, once the size
 /// of the picture is known.
 /// \param r  Receives `pixels` and `which`. A slice may have no rows.

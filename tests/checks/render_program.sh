@@ -147,6 +147,26 @@ cat >dark.json <<'END'
 END
 "$render" dark.json --rays 1 --quiet --out dark.pfm 2>err.txt
 grep -q '^every pixel is black: ' err.txt || wrong "no remark on a dark picture: $(cat err.txt)"
+# An option that leaves light out is named: a lamp within glass is a caustic.
+cat >lantern.json <<'END'
+{"camera": {"position": [0, 3, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vfov_deg": 20},
+ "image": {"width": 4, "height": 4},
+ "materials": {"grey": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]},
+               "glass": {"type": "dielectric", "ior": 1.5}},
+ "objects": [{"type": "disc", "material": "grey", "center": [0, 0, 0], "normal": [0, 1, 0],
+              "radius": 1},
+             {"type": "sphere", "material": "glass", "center": [0, 5, 0], "radius": 1},
+             {"type": "sphere", "material": "grey", "center": [0, 5, 0], "radius": 0.5,
+              "emission": [9, 9, 9]}]}
+END
+"$render" lantern.json --rays 1 --caustic-photons 0 --quiet --out dark.pfm 2>err.txt
+grep -q '^every pixel is black: .*--caustic-photons 0 leaves out' err.txt ||
+    wrong "no word on missing caustics: $(cat err.txt)"
+for left_out in "--indirect none" "--depth 1"; do
+    "$render" dark.json --rays 1 $left_out --quiet --out dark.pfm 2>err.txt
+    grep -q "^every pixel is black: .*$left_out leaves out" err.txt ||
+        wrong "no word on $left_out in a dark picture: $(cat err.txt)"
+done
 "$render" dark.json --rays 1 --region 0,0,2,2 --quiet --out dark.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on a dark part: $(cat err.txt)"
 # So is a radius in another unit than the scene's, of a picture in passes as well; the plan
