@@ -56,13 +56,17 @@ TEST_CASE("nearest word: the edit distance is that of its definition") {
 }
 
 TEST_CASE("nearest word: what is near is proposed, and nothing else") {
-    const std::vector<std::string> words{"lambertian", "mirror", "dielectric",
-                                         "thin-glass", "fon",    "eon"};
+    const std::vector<std::string> words{"lambertian", "mirror",      "oren-nayar-full",
+                                         "oren-nayar", "dielectric",  "thin-glass",
+                                         "fon",        "rough-glass", "eon"};
     CHECK(nearest_word("lambert", words) == "lambertian");
     CHECK(nearest_word("Mirror", words) == "mirror");
     CHECK(nearest_word("miror", words) == "mirror");
     CHECK(nearest_word("mirrors", words) == "mirror");
-    CHECK(nearest_word("glass", words) == "thin-glass");
+    CHECK(nearest_word("thin", words) == "thin-glass");
+    CHECK(nearest_word("oren", words) == "oren-nayar"); // a part of the other
+    CHECK(nearest_word("glass", words).empty());        // which of two?
+    CHECK(nearest_word("rough-glass-pane", words) == "rough-glass");
     CHECK(nearest_word("fom", words) == "fon"); // the first of two
     CHECK(nearest_word("dielectirc", words) == "dielectric");
     CHECK(nearest_word("plastic", words).empty());

@@ -69,7 +69,8 @@ inline bool same_letter(char a, char b) {
 /// \return The word with the smallest edit distance, if this distance is at most 1, or
 ///         at most a third of the length of `word`. Otherwise the nearest word that
 ///         contains `word` or is a part of `word`, if both have three letters or more.
-///         The first of equally near words is returned; an empty text if none is near.
+///         The first of equally near words is returned. An empty text if none is near,
+///         or if several words contain `word` and the nearest is not a part of them.
 template <typename Words>
 [[nodiscard]] std::string nearest_word(std::string_view word, const Words& words) {
     constexpr std::size_t longest = 40, shortest = 3;
@@ -90,6 +91,10 @@ template <typename Words>
         least = distance;
         found = known;
     }
+    if (least > most)
+        for (const std::string_view known : words)
+            if (known.find(word) != known.npos && known.find(found) == known.npos)
+                return {};
     return found;
 }
 
