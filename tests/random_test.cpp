@@ -24,6 +24,13 @@ using ljus_test::chi_square_limit;
 
 namespace {
 
+template <typename S>
+concept GivesPoints = requires(S& stream) {
+    next_2d(stream);
+    next_3d(stream);
+};
+static_assert(GivesPoints<RandomStream> && !GivesPoints<int>);
+
 /// The inverse of mix_bits(), step by step: a number that mix_bits() takes to `y`.
 std::uint64_t unmix(std::uint64_t y) {
     const auto inverse = [](std::uint64_t odd) { // of a factor, modulo 2^64 (Newton)

@@ -76,41 +76,39 @@ template <std::floating_point T = float>
         return static_cast<T>(bits >> 11) * T(0x1p-53);
 }
 
-/// The next point of the unit square [0, 1)^2, of any stream: two numbers.
-template <std::floating_point T = float, typename Stream>
-[[nodiscard]] constexpr Vec2T<T> next_2d(Stream& stream) noexcept {
-    const T x = next_1d<T>(stream);
-    return {x, next_1d<T>(stream)};
-}
-
-/// The next point of the unit cube [0, 1)^3, of any stream: three numbers.
-template <std::floating_point T = float, typename Stream>
-[[nodiscard]] constexpr Vec3T<T> next_3d(Stream& stream) noexcept {
-    const T x = next_1d<T>(stream);
-    const T y = next_1d<T>(stream);
-    return {x, y, next_1d<T>(stream)};
-}
-
 /// A source of random numbers: a copyable struct for which these functions are defined.
 ///
 /// | function                     | what it does                                      |
 /// |------------------------------|---------------------------------------------------|
 /// | next_1d<T>(stream)           | returns the next number of [0, 1)                 |
-/// | next_2d<T>(stream)           | returns the next point of the unit square         |
-/// | next_3d<T>(stream)           | returns the next point of the unit cube           |
 /// | start_bounce(stream, bounce) | moves to the numbers of a bounce, which do not    |
 /// |                              | depend on what was drawn before                   |
 ///
-/// Copies of a stream draw the same numbers. The `Stream` of a renderer must also have
-/// a member `key` and a function `start_ray(stream, seed, pixel, ray, pattern)`, like
-/// those of StratifiedStream.
+/// It may have its own next_2d<T>(stream) and next_3d<T>(stream) in place of those
+/// below. Copies of a stream draw the same numbers. The `Stream` of a renderer must
+/// also have a member `key` and a function `start_ray(stream, seed, pixel, ray,
+/// pattern)`, like those of StratifiedStream.
 template <typename S>
 concept StreamLike = std::copyable<S> && requires(S& stream, std::uint64_t bounce) {
     { next_1d<float>(stream) } -> std::same_as<float>;
-    { next_2d<float>(stream) } -> std::same_as<Vec2T<float>>;
-    { next_3d<double>(stream) } -> std::same_as<Vec3T<double>>;
+    { next_1d<double>(stream) } -> std::same_as<double>;
     start_bounce(stream, bounce);
 };
+
+/// The next point of the unit square [0, 1)^2: two numbers.
+template <std::floating_point T = float, StreamLike Stream>
+[[nodiscard]] constexpr Vec2T<T> next_2d(Stream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    return {x, next_1d<T>(stream)};
+}
+
+/// The next point of the unit cube [0, 1)^3: three numbers.
+template <std::floating_point T = float, StreamLike Stream>
+[[nodiscard]] constexpr Vec3T<T> next_3d(Stream& stream) noexcept {
+    const T x = next_1d<T>(stream);
+    const T y = next_1d<T>(stream);
+    return {x, y, next_1d<T>(stream)};
+}
 
 /// \}
 
