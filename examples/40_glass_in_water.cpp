@@ -29,10 +29,10 @@ void add_rod(Table& table, const Cylinder& side, MaterialId material) {
 // [glass of water]
 void add_glass(Table& table, int rank) {
     const Rgb green{0.5f, 0.15f, 0.4f}, blue{0.3f, 0.1f, 0.04f};
-    const auto glass = table.add(Nested<Glass>{{1.5f, green}, {1 * rank}});
-    const auto hollow = table.add(Nested<Glass>{{1.0f}, {2 * rank}});
-    const auto water = table.add(Nested<Glass>{{1.33f, blue}, {3 * rank}});
-    const auto bubble = table.add(Nested<Glass>{{1.0f}, {4 * rank}});
+    const auto glass = table.add(Nested<Glass>{{1.5f, green}, 1 * rank});
+    const auto hollow = table.add(Nested<Glass>{{1.0f}, 2 * rank});
+    const auto water = table.add(Nested<Glass>{{1.33f, blue}, 3 * rank});
+    const auto bubble = table.add(Nested<Glass>{{1.0f}, 4 * rank});
     add_rod(table, {{0, 0.01f, 0}, {0, 1.49f, 0}, 0.6f}, glass);   // not on the table
     add_rod(table, {{0, 0.15f, 0}, {0, 1.36f, 0}, 0.53f}, hollow); // above the rim
     add_rod(table, {{0, 0.14f, 0}, {0, 0.9f, 0}, 0.54f}, water);   // into the glass

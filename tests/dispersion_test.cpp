@@ -201,7 +201,7 @@ TEST_CASE("dispersion: a prism deviates each wavelength by its least angle") {
 
 TEST_CASE("dispersion: with a priority, glass has the same index at each wavelength") {
     const Nested<DispersiveGlass> nested{
-        {.law = sf10<float>, .absorption{0.1f, 0.2f, 0.3f}}, {2}};
+        {.law = sf10<float>, .absorption{0.1f, 0.2f, 0.3f}}, 2};
     static_assert(Dispersive<Nested<DispersiveGlass>>);
     for (const float nm : {400.0f, 589.0f, 700.0f}) {
         const Glass glass = at_wavelength(nested, nm);
@@ -231,8 +231,8 @@ TEST_CASE("dispersion: a normal map around glass leaves its spectrum") {
     const NormalMap flat{{.image = make_image(1, 1, Rgb{0.5f, 0.5f, 1})}};
     check_index(flint);
     check_index(Dented{flint, flat});
-    check_index(Nested<Dented>{{flint, flat}, {1}});
-    check_index(Textured<Nested<DispersiveGlass>, NormalMap>{{flint, {1}}, flat});
+    check_index(Nested<Dented>{{flint, flat}, 1});
+    check_index(Textured<Nested<DispersiveGlass>, NormalMap>{{flint, 1}, flat});
 }
 
 TEST_CASE("dispersion: a second prism gathers a spectrum, or spreads it further") {

@@ -556,8 +556,8 @@ TEST_CASE("load_json: the report's sliders") {
         return std::get<std::vector<Nested<Mixture>>>(loaded.scene.materials).at(0);
     };
     const Mixture plain = made("").base;
-    CHECK(made("").texture.number == 0);
-    CHECK(made(R"(, "priority": 3)").texture.number == 3);
+    CHECK(made("").priority == 0);
+    CHECK(made(R"(, "priority": 3)").priority == 3);
     CHECK(plain.color == Rgb{0.5f, 0.25f, 1});
     CHECK(plain.index == 1.5f);
     for (const float slider :
@@ -619,7 +619,7 @@ TEST_CASE("load_json: each name makes its own material") {
         read(with(R"({"type": "dielectric", "ior": 1.25, "absorption": [3, 0, 3]})"));
     const auto& glasses = std::get<std::vector<Nested<Glass>>>(green.scene.materials);
     CHECK(glasses.at(0).base.absorption == Rgb{3, 0, 3});
-    CHECK(glasses.at(0).texture.number == 0);
+    CHECK(glasses.at(0).priority == 0);
     const World in_order(
         read(with(R"({"type": "dielectric", "ior": 1.3, "priority": 2})")).scene);
     CHECK(in_order.has_priorities());

@@ -50,7 +50,7 @@ using Bodies =
 
 template <typename T>
 Nested<GlassT<T>> nested(double index, int priority, double absorption = 0) {
-    return {{.index = T(index), .absorption = RgbT<T>{T(absorption)}}, {priority}};
+    return {{.index = T(index), .absorption = RgbT<T>{T(absorption)}}, priority};
 }
 
 /// A sky that is bluer above.
@@ -255,7 +255,7 @@ TEST_CASE("nested bodies: water on glass and glass in water, as the exact series
                                                     .specularity = 1,
                                                     .absorption = RgbT<double>{0.25}};
                        add_slab(scene, -1, 0,
-                                scene.add(Nested<MixtureT<double>>{glass, {2}}));
+                                scene.add(Nested<MixtureT<double>>{glass, 2}));
                    },
                    degrees),
                on);
@@ -311,7 +311,7 @@ TEST_CASE("nested bodies: a furnace stays 1, and n^2 in a medium") {
             material.base.absorption = RgbT<double>{0};
         if (rough)
             scene.add(SphereT<double>{{-0.4, 0, 0}, 0.3},
-                      scene.add(Nested<RoughGlassT<double>>{{1.6, 0.05}, {2}}));
+                      scene.add(Nested<RoughGlassT<double>>{{1.6, 0.05}, 2}));
         scene.add(SphereT<double>{{0, 0.6, 0}, 0.2},
                   scene.add(MirrorT<double>{RgbT<double>{1}}));
         scene.add(EnvironmentLightT<double>{});
@@ -370,8 +370,8 @@ TEST_CASE("nested bodies: the same picture as with a relative index") {
         const Glass water{.index = 1.33f, .absorption = blue};
         scene.add(Sphere{{0, 0, 0}, 0.4f}, ball);
         if (priorities) {
-            scene.add(Sphere{{0, 0, 0}, 0.8f}, scene.add(Nested<Glass>{water, {2}}));
-            scene.add(Sphere{{0, 0, 0}, 1}, scene.add(Nested<Glass>{glass, {1}}));
+            scene.add(Sphere{{0, 0, 0}, 0.8f}, scene.add(Nested<Glass>{water, 2}));
+            scene.add(Sphere{{0, 0, 0}, 1}, scene.add(Nested<Glass>{glass, 1}));
         } else {
             Glass relative = water;
             relative.index = 1.33f / 1.5f;
@@ -406,7 +406,7 @@ TEST_CASE("nested bodies: priorities without an overlap change no byte") {
     };
     const Glass clear{.index = 1.5f}, red{.index = 1.4f, .absorption{0, 1, 1}};
     const auto plain = picture(clear, red);
-    CHECK(picture(Nested<Glass>{clear, {1}}, Nested<Glass>{red, {2}}) == plain);
+    CHECK(picture(Nested<Glass>{clear, 1}, Nested<Glass>{red, 2}) == plain);
     CHECK(picture(Nested<Glass>{clear}, Nested<Glass>{red}) == plain);
 }
 
@@ -419,7 +419,7 @@ TEST_CASE("nested bodies: a normal map changes neither index nor priority") {
               Lights<EnvironmentLight>>
             scene;
         const auto water =
-            scene.add(Nested<Glass>{{.index = 1.33f, .absorption = Rgb{0.1f}}, {1}});
+            scene.add(Nested<Glass>{{.index = 1.33f, .absorption = Rgb{0.1f}}, 1});
         const auto other = scene.add(glass);
         scene.add(face(float(water_from), false), water);
         scene.add(face(2.0f, true), water);
@@ -434,17 +434,17 @@ TEST_CASE("nested bodies: a normal map changes neither index nor priority") {
     };
     const Glass glass{.index = 1.5f, .absorption{0.2f, 0.1f, 0}};
     const NormalMap flat{{.image = make_image(1, 1, Rgb{0.5f, 0.5f, 1})}};
-    const auto overlapping = picture(Nested<Glass>{glass, {2}}, 0.5);
-    CHECK(overlapping != picture(Nested<Glass>{glass, {0}}, 0.5));
-    CHECK(picture(Nested<Dented>{{glass, flat}, {2}}, 0.5) == overlapping);
-    CHECK(picture(Over{{glass, {2}}, flat}, 0.5) == overlapping);
+    const auto overlapping = picture(Nested<Glass>{glass, 2}, 0.5);
+    CHECK(overlapping != picture(Nested<Glass>{glass, 0}, 0.5));
+    CHECK(picture(Nested<Dented>{{glass, flat}, 2}, 0.5) == overlapping);
+    CHECK(picture(Over{{glass, 2}, flat}, 0.5) == overlapping);
     const auto in_contact = picture(glass, 1);
     CHECK(picture(Dented{glass, flat}, 1) == in_contact);
 
     const NormalMap slope{{.image = make_image(1, 1, Rgb{0.7f, 0.5f, 0.9f})}};
-    CHECK(picture(Nested<Dented>{{glass, slope}, {2}}, 0.5) ==
-          picture(Over{{glass, {2}}, slope}, 0.5));
-    CHECK(picture(Nested<Dented>{{glass, slope}, {2}}, 0.5) != overlapping);
+    CHECK(picture(Nested<Dented>{{glass, slope}, 2}, 0.5) ==
+          picture(Over{{glass, 2}, slope}, 0.5));
+    CHECK(picture(Nested<Dented>{{glass, slope}, 2}, 0.5) != overlapping);
 }
 
 TEST_CASE("nested bodies: shadow rays pass what is hidden") {
@@ -532,7 +532,7 @@ TEST_CASE("nested bodies: a random path is in the bodies around it") {
     scene.add(Sphere{{0, -0.6f, 0}, 0.25f}, scene.add(Mirror{}));
     scene.add(Sphere{{-0.6f, 0.3f, 0}, 0.2f}, scene.add(Lambertian{}));
     scene.add(Sphere{{0.2f, 0, 0.9f}, 0.4f},
-              scene.add(Nested<RoughGlass>{{1.6f, 0.4f}, {2}}));
+              scene.add(Nested<RoughGlass>{{1.6f, 0.4f}, 2}));
     scene.add(Quad{{-3, -3, -0.7f}, {6, 0, 0}, {0, 6, 0}}, scene.add(Lambertian{}));
     const World world(std::move(scene));
     int checked = 0, wrong = 0;

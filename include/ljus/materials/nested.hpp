@@ -10,18 +10,25 @@ namespace ljus {
 /// \addtogroup nested_bodies
 /// \{
 
-/// The priority of a Nested material.
-struct Priority {
+struct Priority; ///< In place of a texture, for Nested.
+
+/// A material with a priority; see Nested.
+template <Material Base>
+struct Textured<Base, Priority> {
+    using Scalar = typename Base::Scalar;          ///< The precision of its numbers.
+    static constexpr bool scatters_as_base = true; ///< Scattering is that of the base.
+    static constexpr bool uses_uv = UsesUv<Base>;  ///< True if the base uses uv.
+    Base base{};                                   ///< The transparent material.
     /// Where bodies overlap, the body with the highest priority fills the space. A
     /// material that is not Nested has priority 0.
-    int number = 0;
+    int priority = 0;
 };
 
 /// Glass, rough glass or another transparent material with a priority, for bodies that
 /// overlap other bodies. A material with holes must be opaque, and needs no priority.
 ///
-///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, {2}});
-///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, {1}});
+///     const auto glass = scene.add(Nested<Glass>{{.index = 1.5f}, 2});
+///     const auto water = scene.add(Nested<Glass>{{.index = 1.33f}, 1});
 /// \cite schmidt2002
 template <Material Base>
 requires Transparent<Base>
@@ -30,11 +37,14 @@ using Nested = Textured<Base, Priority>;
 /// The priority where bodies overlap.
 template <typename Base>
 [[nodiscard]] constexpr int priority(const Textured<Base, Priority>& nested) noexcept {
-    return nested.texture.number;
+    return nested.priority;
 }
 
-/// Every priority is allowed.
-inline void check(const Priority&) noexcept {}
+/// Checks the base; every priority is allowed.
+template <typename Base>
+void check(const Textured<Base, Priority>& nested) {
+    check(nested.base);
+}
 
 /// \}
 

@@ -217,7 +217,7 @@ constexpr auto material_rows() {
             {ior_row, absorption_row, priority_row},
             [](In in) {
                 return Nested<GlassT<T>>{{in.value("ior"), in.color("absorption")},
-                                         {in.priority()}};
+                                         in.priority()};
             }),
         row("mixture", "the report's sliders",
             {needed("color", color_value, "of the body", "[0.8, 0.6, 0.4]"),
@@ -232,7 +232,7 @@ constexpr auto material_rows() {
                     "standard deviation of the slope, degrees"),
              absorption_row, priority_row},
             [](In in) {
-                return Nested<MixtureT<T>>{read_mixture(in), {in.priority()}};
+                return Nested<MixtureT<T>>{read_mixture(in), in.priority()};
             }),
         row("oren-nayar-full", "with interreflection between facets",
             {albedo_row, sigma_row}, [](In in) { return in.rough(RoughModel::full); }),
@@ -267,7 +267,7 @@ constexpr auto material_rows() {
             [](In in) {
                 return Nested<RoughGlassT<T>>{
                     {in.value("ior"), in.value("roughness"), in.color("absorption")},
-                    {in.priority()}};
+                    in.priority()};
             }),
         row("dispersive-glass", "glass that makes a spectrum, by two numbers",
             {needed("ior", {JsonKind::number, 1, 100, "within [1, 100]"},
@@ -279,7 +279,7 @@ constexpr auto material_rows() {
                 return Nested<DispersiveGlassT<T, CauchyT<T>>>{
                     {cauchy_from_abbe(in.value("ior"), in.value("abbe")),
                      in.color("absorption")},
-                    {in.priority()}};
+                    in.priority()};
             }),
         row("measured-glass", "glass, water or diamond with a measured spectrum",
             {needed("medium", {.kind = JsonKind::word, .words = medium_words},
@@ -289,7 +289,7 @@ constexpr auto material_rows() {
              absorption_row, priority_row},
             [](In in) {
                 return Nested<DispersiveGlassT<T>>{
-                    {in.medium(), in.color("absorption")}, {in.priority()}};
+                    {in.medium(), in.color("absorption")}, in.priority()};
             }),
         row("thin-glass", "a pane",
             {ior_row, needed("tint", color_value, "of what passes", "[0.9, 1, 0.9]")},
