@@ -24,11 +24,11 @@ ljus_break_it(NAME json-film-level HEADER io/detail/json_materials.hpp TEST load
     TO   [[in.has("scale") || in.has("up")]]
     CASES "load_json: panes*")
 
-# A picture is forgotten before its last use.
-ljus_break_it(NAME json-picture-once HEADER io/detail/json_textures.hpp TEST load_json
-    FROM "if (--known.uses > 0 &&"
-    TO   "if (--known.uses < 0 &&"
-    CASES "load_json: a picture of several*")
+# Each picture is counted alone.
+ljus_break_it(NAME json-pictures-limit HEADER io/detail/json_textures.hpp TEST load_json
+    FROM "pixels += static_cast<long long>(image.pixels.size());"
+    TO   "pixels = static_cast<long long>(image.pixels.size());"
+    CASES "load_json: the pictures of all*")
 
 # Each full gloss computes its own table.
 ljus_break_it(NAME json-loss-tables HEADER io/detail/json_materials.hpp TEST load_json

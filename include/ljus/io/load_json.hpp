@@ -135,7 +135,7 @@ std::map<std::string, MaterialId> read_materials(const JsonField& list, Scene& s
     if (films > max_soap_films)
         refuse(list, "has more than 16 soap films, whose colours are slow to compute");
 
-    SharedByMaterialsT<T> shared{.pictures = FilePicturesT<T>(list)};
+    SharedByMaterialsT<T> shared;
     std::map<std::string, MaterialId> materials;
     for (const auto& [name, value] : list.value.items())
         materials[name] = read_material({value, list.file, list.root}, shared, scene);

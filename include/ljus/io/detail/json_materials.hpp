@@ -35,7 +35,7 @@ inline constexpr std::size_t max_loss_tables = 64;
 // Data that the materials of a file share.
 template <std::floating_point T>
 struct SharedByMaterialsT {
-    FilePicturesT<T> pictures;
+    long long pixels = 0;                 // of all pictures so far
     std::map<T, EnergyLossT<T>> losses{}; // by roughness
 };
 
@@ -117,25 +117,20 @@ SoapFilmT<T> read_film(const MaterialFields<T>& fields) {
 
 // A matt surface with pictures of colours, normals and holes, as in a mesh file.
 template <std::floating_point T>
-MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in,
-                                          FilePicturesT<T>& pictures) {
+MeshDetailedT<LambertianT<T>> read_mapped(const JsonMembersOf& in, long long& pixels) {
     using Picture = PictureTextureT<T, UvMapT<T>>;
     const UvMapT<T> map = read_uv_map<T>(in);
-    const auto on_map = [&](const JsonField& file, PictureContent content) {
-        const auto take = [&](const std::string& path) {
-            return content == PictureContent::colors ? pictures.take(path)
-                                                     : pictures.take(path, content);
-        };
-        return picture_on(map, in, picture_of(file, take));
+    const auto on_map = [&](const char* file, PictureContent content) {
+        return picture_on(map, in, take_picture<T>(in[file], pixels, content));
     };
     const auto even = [&](const RgbT<T>& color) {
         return Picture{.image = make_image(1, 1, color)};
     };
     const bool cut = in.has("cutoff"), dented = in.has("normals");
-    return {{{{.albedo = RgbT<T>{T(1)}}, on_map(in["file"], PictureContent::colors)},
-             {dented ? on_map(in["normals"], PictureContent::numbers)
+    return {{{{.albedo = RgbT<T>{T(1)}}, on_map("file", PictureContent::colors)},
+             {dented ? on_map("normals", PictureContent::numbers)
                      : even({T(0.5), T(0.5), T(1)})}},
-            {cut ? on_map(in["file"], PictureContent::alpha) : even(RgbT<T>{T(1)}),
+            {cut ? on_map("file", PictureContent::alpha) : even(RgbT<T>{T(1)}),
              cut ? in.number("cutoff") : 0.5}};
 }
 
@@ -314,7 +309,7 @@ constexpr auto material_rows() {
         row("picture", "matt, with the colours of a picture",
             {picture_row, map[0], map[1], map[2], map[3], map[4], map[5], map[6],
              map[7], wrap_row, filter_row},
-            [](In in) { return white<T>(read_picture(in.in, in.shared.pictures)); }),
+            [](In in) { return white<T>(read_picture<T>(in.in, in.shared.pixels)); }),
         row("mapped", "matt, with pictures in the shape's own coordinates",
             {needed("file", text_value, "its colours: PNG, JPEG or BMP",
                     "\"tile.png\""),
@@ -326,15 +321,15 @@ constexpr auto material_rows() {
                       "where the alpha of the colours is below it, there is a hole",
                       "0.5"),
              map[5], map[6], map[7], wrap_row, filter_row},
-            [](In in) { return read_mapped(in.in, in.shared.pictures); }),
+            [](In in) { return read_mapped<T>(in.in, in.shared.pixels); }),
         row("picture-lamp",
             "of a quad or a disc, whose emission it multiplies: ljus::PictureLamp",
             {picture_row,
              preset("albedo", color_value, 0, "of the light that falls on it")},
             [](In in) {
-                return PictureLampT<T>{.picture =
-                                           take_picture(in.in, in.shared.pictures),
-                                       .base{in.color("albedo")}};
+                return PictureLampT<T>{
+                    .picture = take_picture<T>(in.in["file"], in.shared.pixels),
+                    .base{in.color("albedo")}};
             })};
 }
 

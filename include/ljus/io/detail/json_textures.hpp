@@ -4,7 +4,6 @@
 /// \brief The textures of a scene file.
 
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <variant>
 
@@ -122,64 +121,18 @@ CheckerT<T, FileMapT<T>> read_checker(const JsonMembersOf& in) {
             .rows = static_cast<int>(in.number("rows"))};
 }
 
-// The pictures of a scene file. Each picture is read once and kept until its last use.
-// Every use gets a copy, and the pixels of all copies together are limited.
+// Reads the picture that a field names. `pixels` is the number of pixels of all pictures
+// so far, which is limited.
 template <std::floating_point T>
-struct FilePicturesT {
-    struct Picture {
-        int uses = 0; // uses that are still to come
-        ImageT<T> image{};
-    };
-    std::map<std::string, Picture> by_path{};
-    long long pixels = 0; // of all copies so far
-
-    // Counts the uses in a list of materials.
-    explicit FilePicturesT(const JsonField& materials) {
-        for (const auto& value : materials.value)
-            if (const auto file = value.find("file");
-                file != value.end() && file->is_string())
-                ++at(path_beside(materials.file, *file)).uses;
-    }
-    Picture& at(const std::string& path) { return by_path[one_path(path)]; }
-
-    // Reads the alpha or the numbers of a picture, which are not kept.
-    ImageT<T> take(const std::string& path, PictureContent content) {
-        ImageT<T> image = load_image<T>(path, pixels, content);
+ImageT<T> take_picture(const JsonField& file, long long& pixels,
+                       PictureContent content = PictureContent::colors) {
+    try {
+        ImageT<T> image = load_image<T>(path_beside(file), pixels, content);
         pixels += static_cast<long long>(image.pixels.size());
         return image;
-    }
-    ImageT<T> take(const std::string& path) {
-        Picture& known = at(path);
-        ImageT<T>& image = known.image;
-        if (image.pixels.empty())
-            image = load_image<T>(path, pixels);
-        else if (const std::string why =
-                     too_large_beside(pixels, image.width, image.height);
-                 !why.empty())
-            throw std::runtime_error(join({shown_path(path), " ", why, "."}));
-        pixels += static_cast<long long>(image.pixels.size());
-        // The picture is not kept if another copy would exceed the limit.
-        if (--known.uses > 0 &&
-            too_large_beside(pixels, image.width, image.height).empty())
-            return image;
-        return std::move(image);
-    }
-};
-
-// Reads the picture that a field names, by take(path).
-template <typename Take>
-auto picture_of(const JsonField& file, Take take) {
-    try {
-        return take(path_beside(file));
     } catch (const std::runtime_error& error) {
         refuse_for(file, error);
     }
-}
-
-template <std::floating_point T>
-ImageT<T> take_picture(const JsonMembersOf& in, FilePicturesT<T>& pictures) {
-    return picture_of(in["file"],
-                      [&](const std::string& path) { return pictures.take(path); });
 }
 
 // Puts a picture on a map.
@@ -198,9 +151,9 @@ PictureTextureT<T, Map> picture_on(const Map& map, const JsonMembersOf& in,
 
 template <std::floating_point T>
 PictureTextureT<T, FileMapT<T>> read_picture(const JsonMembersOf& in,
-                                             FilePicturesT<T>& pictures) {
+                                             long long& pixels) {
     const FileMapT<T> map = read_map<T>(in);
-    return picture_on(map, in, take_picture(in, pictures));
+    return picture_on(map, in, take_picture<T>(in["file"], pixels));
 }
 
 } // namespace ljus::detail
