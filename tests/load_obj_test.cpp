@@ -641,7 +641,7 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     }
     CHECK(is(17).diffuse == glm::dvec3{1, 0, 0});
     CHECK(is(17).name == "late");
-    // What a scene makes of it, and of another material for all.
+    // What a scene makes of it.
     Scene<Shapes<Mesh>, Materials<Lambertian, Glass, Mirror>> scene;
     add_meshes(scene, loaded);
     for (std::uint32_t i = 0; i < 18; ++i)
@@ -651,15 +651,6 @@ TEST_CASE("load_obj: which words of a material file make a mirror or glass") {
     const auto& glasses = std::get<std::vector<Glass>>(scene.materials);
     CHECK(glasses.back().index == 1.5f);
     CHECK(scene.light_count() == 2);
-    Scene<Shapes<Mesh>, Materials<Lambertian>> painted;
-    const auto white = painted.add(Lambertian{.albedo = Rgb{0.75f}});
-    add_meshes(painted, loaded, white, Rgb{1, 2, 3});
-    CHECK(painted.size() == 18);
-    CHECK(painted.light_count() == 18);
-    CHECK(painted.object({0, 3}).emission == Rgb{1, 2, 3});
-    CHECK(painted.object({0, 3}).material == white);
-    add_meshes(painted, loaded, white);
-    CHECK(painted.light_count() == 18);
 }
 
 TEST_CASE("load_obj: a wall shows the four colours of its picture") {

@@ -444,8 +444,8 @@ TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
     settings.caustics = {.photons = 2000};
     settings.general = {.photons = 2000};
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;
-    const auto chosen = settings_for_passes(world, settings, abilities<Budgeting>);
     const PhotonMapper mapper(world, settings, abilities<Budgeting>);
+    const auto chosen = settings_for_passes(mapper);
     const auto& maps = mapper.maps();
     CHECK(chosen.caustics.shares == mapper.settings().caustics.shares);
     CHECK(chosen.caustics_estimate.radius == typical_radius(maps.caustics, 32));
@@ -454,14 +454,15 @@ TEST_CASE("progressive: radii and shares are chosen once, for all passes") {
     CHECK(chosen.caustics.shares[0] == doctest::Approx(1));
     // What was given stays; what is not asked for is not done.
     settings.caustics_estimate.radius = 0.1f;
-    CHECK(settings_for_passes(world, settings, abilities<Budgeting>)
-              .caustics_estimate.radius == 0.1f);
+    const auto again = [&] {
+        return settings_for_passes(PhotonMapper(world, settings, abilities<Budgeting>));
+    };
+    CHECK(again().caustics_estimate.radius == 0.1f);
     settings.caustics.shares = {1.0};
-    CHECK(settings_for_passes(world, settings).caustics.shares ==
-          settings.caustics.shares);
+    CHECK(again().caustics.shares == settings.caustics.shares);
     settings.caustics.shares.clear();
     settings.caustic_budget = CausticBudget::as_seen;
-    CHECK(settings_for_passes(world, settings).caustics.shares.empty());
+    CHECK(again().caustics.shares.empty());
 
     // A pass that would choose its own radius would never shrink it.
     const RenderSettings picture{.width = 12, .height = 9, .samples = 1};

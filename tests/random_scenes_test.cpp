@@ -184,7 +184,7 @@ Image carried(const DrawnScene& drawn, const std::string& name, std::uint64_t se
         .width = small, .height = small, .samples = 16, .seed = seed, .threads = 1};
     if (name == "progressive") {
         settings.caustics.photons = settings.general.photons = pass_photons;
-        settings = settings_for_passes(drawn.world, settings, listed);
+        settings = settings_for_passes(PhotonMapper(drawn.world, settings, listed));
         for (float* const radius :
              {&settings.caustics_estimate.radius, &settings.general_estimate.radius})
             if (*radius == 0) *radius = 0.1f; // there are no photons

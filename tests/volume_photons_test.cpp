@@ -467,7 +467,7 @@ TEST_CASE("volume_photons: the balls of a pass shrink") {
     CHECK(refusal([&] {
               (void)photon_mapping_pass(world, cornell_camera(), settings, small, 1, 1);
           }).starts_with("fog_estimate.radius is 0"));
-    settings = settings_for_passes(world, settings);
+    settings = settings_for_passes(PhotonMapper(world, settings));
     CHECK(settings.fog_estimate.radius > 0.02f);
     CHECK(settings.fog_estimate.radius < 0.5f);
     const auto first =

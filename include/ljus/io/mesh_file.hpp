@@ -253,15 +253,6 @@ void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded) {
     add_lights(loaded.suns);
 }
 
-/// Adds all meshes of a file to a scene that lists Mesh, with one material for all of
-/// them. Each mesh emits `radiance`, in W/(m^2 sr).
-template <typename Scene, std::floating_point T>
-void add_meshes(Scene& scene, const LoadedMeshT<T>& loaded, MaterialId material,
-                const RgbT<T>& radiance = RgbT<T>{0}) {
-    for (const MeshPartT<T>& part : loaded.parts)
-        scene.add(part.mesh, material, radiance);
-}
-
 /// Describes the material that add_meshes() makes of a file's material, such as
 /// "matt (0.5, 0.5, 0.5), picture wood.png". A scene that does not list the type of
 /// this material gets a simpler material.

@@ -225,17 +225,6 @@ settings_for_passes(const PhotonMapper<W, X...>& first) {
     return chosen;
 }
 
-/// The settings for further passes, from a mapper that is made for this purpose.
-/// \param world, settings, listed  The arguments of PhotonMapper's constructor.
-/// \throws std::invalid_argument  if a setting is out of range.
-/// \cost The photon maps of one pass.
-template <AnyWorld W, typename... X>
-[[nodiscard]] PhotonMappingSettings
-settings_for_passes(const W& world, const PhotonMappingSettings& settings,
-                    Abilities<X...> listed = {}) {
-    return settings_for_passes(PhotonMapper(world, settings, listed));
-}
-
 /// One pass of the photon mapper, with its own photons and camera rays; the radii of
 /// all maps are multiplied by `scale`.
 ///
