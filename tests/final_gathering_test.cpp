@@ -617,8 +617,8 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
             auto stream = random_stream(test_seed(1), Pass::user, 0, 0);
             Counts counts;
             auto context = context_of(stream, counts);
-            const auto seen =
-                gather_irradiance(world, points, vertex, {.rays = rays}, context);
+            const auto seen = gather_irradiance(world, points, vertex, Lambertian{},
+                                                {.rays = rays}, context);
             CHECK(seen.normal == Vec3{0, 0, above ? 1.0f : -1.0f});
             CHECK(counts.bounce_rays == std::uint64_t(rays));
             if (!above) {
@@ -659,8 +659,8 @@ TEST_CASE("final gathering: the irradiance of a square, from its own side") {
     Counts counts;
     auto context = context_of(numbers, counts);
     const auto seen = gather_irradiance(
-        inside, all, vertex_at(inside, down, *closest_hit(inside, down)), {.rays = 24},
-        context);
+        inside, all, vertex_at(inside, down, *closest_hit(inside, down)), Lambertian{},
+        {.rays = 24}, context);
     CHECK(double(seen.distance) == ljus_test::within(2, 1e-4));
     for (int c = 0; c < 3; ++c) // albedo E / pi from everywhere
         CHECK(double(seen.irradiance[c]) == ljus_test::within(0.5 * (3 + 2 * c), 1e-4));
@@ -993,8 +993,8 @@ TEST_CASE("final gathering: rays are attenuated by what their surface lies in") 
     Counts counts;
     auto context = context_of(stream, counts);
     const Rgb medium{0.5f, 1, 2};
-    const auto found =
-        gather_irradiance(world, points, looks_up(medium), GatherSettings{}, context);
+    const auto found = gather_irradiance(world, points, looks_up(medium), Lambertian{},
+                                         GatherSettings{}, context);
     for (int c = 0; c < 3; ++c) // each ray is 1 long
         CHECK(double(found.irradiance[c]) ==
               ljus_test::within(std::exp(-double(medium[c])), 1e-4));
@@ -1013,8 +1013,8 @@ TEST_CASE("final gathering: in a hall of dim mirrors each ray ends by its own ch
         auto stream = random_stream(test_seed(2), Pass::user, 0, i);
         Counts counts;
         auto context = context_of(stream, counts);
-        (void)gather_irradiance(world, IrradiancePoints{}, looks_up(), settings,
-                                context);
+        (void)gather_irradiance(world, IrradiancePoints{}, looks_up(), Lambertian{},
+                                settings, context);
         CHECK(counts.bounce_rays > 100);
         CHECK(counts.bounce_rays < 300);
     }
@@ -1039,9 +1039,10 @@ TEST_CASE("final gathering: five rays stand elsewhere at each place: no bias") {
                     auto stream = random_stream(test_seed(3), Pass::user, 0, i);
                     Counts counts;
                     auto context = context_of(stream, counts);
-                    mean.add(double(gather_irradiance(world, points, looks_up(),
-                                                      {.rays = 5}, context)
-                                        .irradiance.x));
+                    mean.add(
+                        double(gather_irradiance(world, points, looks_up(),
+                                                 Lambertian{}, {.rays = 5}, context)
+                                   .irradiance.x));
                 }
                 const auto right =
                     form_factor_from(Vec3{0}, Vec3{0, 0, 1}, square, false);
@@ -1181,8 +1182,8 @@ TEST_CASE("final gathering: rays meet what moves where it is at their time") {
         auto stream = random_stream(test_seed(4), Pass::user, 0, 0);
         Counts counts;
         auto context = context_of(stream, counts);
-        const auto seen =
-            gather_irradiance(world, points, vertex, {.rays = 400}, context);
+        const auto seen = gather_irradiance(world, points, vertex, Lambertian{},
+                                            {.rays = 400}, context);
         // 1 / length = cos / height, whose cosine-weighted mean is 2 / 3.
         const double height = 1 + 4 * double(time);
         CHECK(double(seen.distance) == ljus_test::within(1.5 * height, 0.01));

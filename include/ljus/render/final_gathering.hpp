@@ -273,16 +273,6 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
     return gathered;
 }
 
-/// Gathers the indirect irradiance at a vertex of a Lambertian surface.
-template <AnyWorld W, std::floating_point T, typename Context>
-[[nodiscard]] GatheredT<T>
-gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
-                  const VertexT<T>& vertex, const GatherSettings& settings,
-                  Context& context) {
-    return gather_irradiance(world, lookup, vertex, LambertianT<T>{}, settings,
-                             context);
-}
-
 /// \}
 
 } // namespace ljus

@@ -185,12 +185,8 @@ inline constexpr JsonMember fog_shared[]{
     preset("absorption", coefficient_value, 0, "per unit of length"),
     preset("g", {JsonKind::number, -0.99, 0.99, "within [-0.99, 0.99]"}, 0,
            "mean cosine of scattering: above 0 light goes on, below it returns")};
-inline constexpr JsonMember fog_sphere_members[]{
-    needed("center", point_value, "its centre", "[0, 1, 0]"),
-    needed("radius", length_value, "its radius", "0.5")};
-inline constexpr JsonMember fog_box_members[]{
-    needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
-    needed("high", point_value, "greatest x, y and z", "[1, 2, 1]")};
+inline constexpr JsonMember fog_sphere_members[]{center_row, radius_row};
+inline constexpr JsonMember fog_box_members[]{low_row, high_row};
 inline constexpr JsonTable fog_tables[]{{"sphere", "a ball", fog_sphere_members},
                                         {"box", "a box", fog_box_members}};
 

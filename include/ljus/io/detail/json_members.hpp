@@ -98,6 +98,16 @@ inline constexpr JsonValue factor_value{JsonKind::number, 1e-9, 1e9,
 inline constexpr JsonValue angle_value{JsonKind::number, -360, 360,
                                        "within [-360, 360] degrees"};
 
+// Members of several kinds of objects.
+inline constexpr JsonMember center_row =
+    needed("center", point_value, "its centre", "[0, 1, 0]");
+inline constexpr JsonMember radius_row =
+    needed("radius", length_value, "its radius", "0.5");
+inline constexpr JsonMember low_row =
+    needed("low", point_value, "least x, y and z", "[0, 0, 0]");
+inline constexpr JsonMember high_row =
+    needed("high", point_value, "greatest x, y and z", "[1, 2, 1]");
+
 inline void check_number(const JsonField& field, const JsonValue& value) {
     if (value.kind == JsonKind::whole)
         (void)whole_number(field, static_cast<long long>(value.low),

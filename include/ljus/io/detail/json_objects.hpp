@@ -79,10 +79,6 @@ inline constexpr JsonMember own_material_row = optional(
     "material", text_value,
     "a name of materials; without it, or with \"file\", those of the mesh file",
     "\"grey\"");
-inline constexpr JsonMember center_row =
-    needed("center", point_value, "its centre", "[0, 1, 0]");
-inline constexpr JsonMember radius_row =
-    needed("radius", length_value, "its radius", "0.5");
 inline constexpr JsonMember sphere_members[]{material_row, center_row, radius_row};
 inline constexpr JsonMember triangles_members[]{
     material_row,
@@ -111,9 +107,7 @@ inline constexpr JsonMember quad_members[]{
     needed("edge_u", direction_value, "from there to the next corner", "[1, 0, 0]"),
     needed("edge_v", direction_value, "to the other one; the normal is edge_u x edge_v",
            "[0, 1, 0]")};
-inline constexpr JsonMember box_members[]{
-    material_row, needed("low", point_value, "least x, y and z", "[0, 0, 0]"),
-    needed("high", point_value, "greatest x, y and z", "[1, 2, 1]")};
+inline constexpr JsonMember box_members[]{material_row, low_row, high_row};
 inline constexpr JsonMember disc_members[]{
     material_row, center_row,
     needed("normal", direction_value, "towards its front", "[0, -1, 0]"), radius_row};

@@ -121,8 +121,8 @@ CheckerT<T, FileMapT<T>> read_checker(const JsonMembersOf& in) {
             .rows = static_cast<int>(in.number("rows"))};
 }
 
-// Reads the picture that a field names. `pixels` is the number of pixels of all pictures
-// so far, which is limited.
+// Reads the picture that a field names. `pixels` is the number of pixels of all
+// pictures so far, which is limited.
 template <std::floating_point T>
 ImageT<T> take_picture(const JsonField& file, long long& pixels,
                        PictureContent content = PictureContent::colors) {
