@@ -1148,14 +1148,18 @@ TEST_CASE("load_json: so many values that memory would end are refused") {
         return text;
     };
     const std::string sentence =
-        "a.json: it has more than 4194304 numbers, or a quarter as many lists, "
+        "a.json: it has more than 8388608 numbers, or a quarter as many lists, "
         "objects and members; put large meshes into files of their own.";
-    CHECK(refusal(many(1'100'000, "{}")) == sentence);
-    CHECK(refusal(many(1'100'000, "[]")) == sentence);
-    CHECK(refusal(many(700'000, R"({"a":1})")) == sentence);
+    CHECK(refusal(many(2'200'000, "{}")) == sentence);
+    CHECK(refusal(many(2'200'000, "[]")) == sentence);
+    CHECK(refusal(many(1'400'000, R"({"a":1})")) == sentence);
     CHECK(refusal(many(100'000, "[1,2,3]")) != sentence);
+    const std::string triangle = R"({"type": "triangles", "material": "grey",)"
+                                 R"("vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],)"
+                                 R"("indices": [[0, 1, 2]]})";
+    CHECK(refusal(many(100'000, triangle)) != sentence);
     // To the last one: 4 for the list, 4 for each list or object and member in it.
-    constexpr std::size_t room = 4'194'304 - 4;
+    constexpr std::size_t room = 8'388'608 - 4;
     CHECK(refusal(many(room / 4, "[]")) != sentence);
     CHECK(refusal(many(room / 4 + 1, "[]")) == sentence);
     CHECK(refusal(many(room / 9, R"({"a":1})")) != sentence);

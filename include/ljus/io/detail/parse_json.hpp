@@ -15,7 +15,7 @@ inline constexpr std::size_t max_json_depth = 32;
 
 // The limit for one file: this many numbers, or a quarter as many lists, objects and
 // members, which take more memory.
-inline constexpr std::size_t max_json_values = std::size_t(1) << 22;
+inline constexpr std::size_t max_json_values = std::size_t(1) << 23;
 
 // Receives the events of nlohmann's parser and builds the value.
 struct JsonBuilder {
