@@ -581,6 +581,21 @@ TEST_CASE("nested bodies: what cannot be right is said or refused") {
     CHECK(say(remarks(two(0, 0)), "give them priorities; around (0."));
     CHECK(say(remarks(two(1, 1)), "of equal priority"));
     CHECK_FALSE(say(remarks(two(1, 2)), "priorit"));
+    // Boxes on a floor, the second of which begins at x: they touch, or overlap.
+    const auto boxes = [](float x) {
+        Bodies<float> scene;
+        const auto glass = scene.add(nested<float>(1.5, 1));
+        const auto tinted = scene.add(Nested<Glass>{{1.5f, Rgb{0.2f, 1, 2}}, 1});
+        for (const Quad& side :
+             sides_of(Box{{-0.6f, -1, -0.6f}, {-0.1f, -0.4f, -0.1f}}))
+            scene.add(side, glass);
+        for (const Quad& side : sides_of(Box{{x, -1, -0.6f}, {0.4f, -0.4f, -0.1f}}))
+            scene.add(side, tinted);
+        scene.add(Sphere{{0.5f, -0.7f, 0.3f}, 0.3f}, glass);
+        return scene;
+    };
+    CHECK_FALSE(say(remarks(boxes(-0.1f)), "priorit"));
+    CHECK(say(remarks(boxes(-0.3f)), "of equal priority"));
     auto film = two(1, 2);
     film.add(Sphere{{0, 0, 0}, 0.5f}, film.add(ThinGlass{}));
     CHECK(say(remarks(film), "a thin surface lies in a transparent body"));

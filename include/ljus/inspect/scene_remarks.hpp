@@ -362,8 +362,9 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
 
 /// Warns of transparent bodies that overlap with equal priority, and of thin surfaces
 /// inside a body. For each two objects, one point is tested: the middle of the region
-/// that their bounding boxes share. Some overlaps are therefore not found, but every
-/// reported one is real.
+/// that their bounding boxes share. Some overlaps are therefore not found. Where that
+/// point lies on surfaces that only touch, a body that ends there may be counted; an
+/// overlap is therefore reported only if a point beside it lies in both bodies as well.
 /// \cost A few rays for each pair of bodies whose boxes overlap, for at most 4096
 ///       pairs.
 template <AnyWorld W>
@@ -388,6 +389,21 @@ template <AnyWorld W>
         return world.visit_material(world.material_of_rank(rank),
                                     [](const auto& m) { return priority(m); });
     };
+    const auto bodies_at = [&](const Vec3T<T>& point) {
+        return bodies_around(
+            world,
+            RayT<T>{.origin = point, .direction = glm::normalize(Vec3T<T>{1, 2, 3})});
+    };
+    const auto is_tied = [&](const BodyList& around) {
+        for (std::size_t n = 1; n < around.ranks.size() && around.ranks[n] != 0; ++n)
+            if (around.ranks[n] != around.ranks[n - 1] &&
+                priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1]))
+                return true;
+        return false;
+    };
+    const auto size = [](const BoxT<T>& box) {
+        return glm::length(box.high - box.low);
+    };
     bool tied = false, film = false;
     int probes = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -397,27 +413,29 @@ template <AnyWorld W>
             if (!glm::all(glm::lessThanEqual(shared.low, shared.high))) continue;
             ++probes;
             const Vec3T<T> middle = shared.low + (shared.high - shared.low) / T(2);
-            const BodyList around = bodies_around(
-                world, RayT<T>{.origin = middle,
-                               .direction = glm::normalize(Vec3T<T>{1, 2, 3})});
             const auto say = [&](bool& said, std::string_view what) {
                 if (!said) remarks.push_back(join({what, to_text(Vec3(middle))}));
                 said = true;
             };
-            if ((all[i].thin || all[k].thin) && around.top() != 0)
+            if ((all[i].thin || all[k].thin) && bodies_at(middle).top() != 0)
                 say(film, "a thin surface lies in a transparent body, where it "
                           "reflects as it does in air; around ");
-            for (std::size_t n = 1; n < around.ranks.size() && around.ranks[n] != 0;
-                 ++n)
-                if (around.ranks[n] != around.ranks[n - 1] &&
-                    priority_of(around.ranks[n]) == priority_of(around.ranks[n - 1]))
-                    say(tied, world.has_priorities()
-                                  ? "transparent bodies of equal priority overlap, "
-                                    "and that of the higher index holds: give them "
-                                    "different priorities; around "
-                                  : "transparent bodies overlap, and each surface "
-                                    "is taken for a boundary between its body and air: "
-                                    "give them priorities; around ");
+            if (tied || !is_tied(bodies_at(middle))) continue;
+            const T beside = T(1e-3) * glm::min(size(all[i].box), size(all[k].box));
+            bool real = false;
+            for (int corner = 0; corner < 8 && !real; ++corner) {
+                const Vec3T<T> signs{corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
+                                     corner & 4 ? 1 : -1};
+                real = is_tied(bodies_at(middle + beside * signs));
+            }
+            if (real)
+                say(tied, world.has_priorities()
+                              ? "transparent bodies of equal priority overlap, "
+                                "and that of the higher index holds: give them "
+                                "different priorities; around "
+                              : "transparent bodies overlap, and each surface "
+                                "is taken for a boundary between its body and air: "
+                                "give them priorities; around ");
         }
 }
 
