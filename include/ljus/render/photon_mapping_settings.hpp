@@ -151,7 +151,7 @@ enum class Preset : std::uint8_t {
     /// dark corner are therefore too bright, by 10 % or more. Penumbras are slightly
     /// wrong. Caustics and glossy reflections are blurred.
     fast,
-    exact ///< Indirect rays at every bounce; only the caustics map is biased.
+    exact ///< Indirect rays at every bounce; caustics and light in fog are biased.
 };
 
 /// The settings of a preset. The number of photons depends on the size of the picture,
