@@ -361,8 +361,8 @@ LJUS_CORE_INLINE void add_contact_remarks(const Contacts& contacts,
 #endif
 
 /// Warns of transparent bodies that overlap with equal priority, and of thin surfaces
-/// inside a body. For each two objects, one point is tested: the middle of the region
-/// that their bounding boxes share. Some overlaps are therefore not found. Where that
+/// inside a body. For each pair of objects one point is tested: the middle of the part
+/// of space that their boxes share. Some overlaps are therefore not found. Where that
 /// point lies on surfaces that only touch, a body that ends there may be counted; an
 /// overlap is therefore reported only if a point beside it lies in both bodies as well.
 /// \cost A few rays for each pair of bodies whose boxes overlap, for at most 4096

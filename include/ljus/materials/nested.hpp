@@ -10,7 +10,7 @@ namespace ljus {
 /// \addtogroup nested_bodies
 /// \{
 
-struct Priority; ///< In place of a texture, for Nested.
+struct Priority; ///< Stands for the texture in the type Nested.
 
 /// A material with a priority; see Nested.
 template <Material Base>

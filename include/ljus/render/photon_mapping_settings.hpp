@@ -151,7 +151,8 @@ enum class Preset : std::uint8_t {
     /// dark corner are therefore too bright, by 10 % or more. Penumbras are slightly
     /// wrong. Caustics and glossy reflections are blurred.
     fast,
-    exact ///< Indirect rays at every bounce; caustics and light in fog are biased.
+    /// Indirect rays at every bounce; only caustics and light in fog are biased.
+    exact
 };
 
 /// The settings of a preset. The number of photons depends on the size of the picture,
