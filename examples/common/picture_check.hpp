@@ -118,9 +118,12 @@ struct Estimate {
     double value = 0; ///< The mean.
     double error = 0; ///< Standard error of the mean.
 
-    /// The mean of some values, and its standard error from their scatter. For a single
-    /// value the error is the value itself.
-    [[nodiscard]] static Estimate of(const std::vector<double>& values) {
+    /// The mean of some values, and its standard error from their scatter, but at least
+    /// from their own errors. For a single value it is at least the value itself.
+    /// \param values    The values.
+    /// \param variance  The sum of their variances.
+    [[nodiscard]] static Estimate of(const std::vector<double>& values,
+                                     double variance) {
         const double n = double(values.size());
         Estimate found;
         for (const double value : values) found.value += value / n;
@@ -129,6 +132,7 @@ struct Estimate {
             squares += (value - found.value) * (value - found.value);
         found.error =
             n > 1 ? std::sqrt(squares / (n * (n - 1))) : std::abs(found.value);
+        found.error = std::max(found.error, std::sqrt(variance) / n);
         return found;
     }
     /// Three standard errors below the mean, at least 0. Three are taken because the
@@ -151,7 +155,8 @@ struct CheckedError {
 /// the squared error of P. The variance of P is known from the scatter of the pictures,
 /// and is subtracted. This leaves the squared bias. The squared error of the mean of a
 /// square is estimated by the products of the errors of two different pixels, over all
-/// such pairs.
+/// such pairs. A small picture has few squares, whose scatter tells little; the scatter
+/// of the pixels within a square then gives the standard error.
 /// \param check  A check with at least one round.
 /// \param state  The pictures, added by ljus::add_pass() with alpha 1.
 /// \return Means over the squares and their standard errors.
@@ -167,9 +172,10 @@ struct CheckedError {
         return (part.x + part.y + part.z) / 3;
     };
     std::vector<double> bias, blocks;
+    double bias_variance = 0, blocks_variance = 0; // of the values, summed
     for (const auto& pixels : check.blocks) {
         const double count = double(pixels.size());
-        double of_pixels = 0;
+        double of_pixels = 0, of_squares = 0;
         Color sum{0}, squares{0}, light{0};
         for (const CheckedPixel& at : pixels) {
             const Color p = pixel(mean, at.x, at.y);
@@ -178,18 +184,28 @@ struct CheckedError {
             const Color truth = (a + b) / 2.0, away = p - truth;
             Color squared = (p - a) * (p - b);
             if (n > 1) squared -= pixel(state.squares, at.x, at.y) / (n * (n - 1));
-            of_pixels +=
-                relative(squared, (pixel(level, at.x, at.y) + truth) / 2.0) / count;
+            const double part =
+                relative(squared, (pixel(level, at.x, at.y) + truth) / 2.0);
+            of_pixels += part / count;
+            of_squares += part * part / count;
             sum += away;
             squares += away * away;
             light += (p + truth) / (2 * count);
         }
         bias.push_back(of_pixels);
-        if (count > 1)
-            blocks.push_back(
-                relative((sum * sum - squares) / (count * (count - 1)), light));
+        if (count == 1) continue;
+        bias_variance +=
+            std::max(of_squares - of_pixels * of_pixels, 0.0) / (count - 1);
+        const Color product = (sum * sum - squares) / (count * (count - 1));
+        blocks.push_back(relative(product, light));
+        // With the variance v of the mean, a product of two has 4 v m^2 + 2 v^2.
+        const Color v = glm::max(squares - sum * sum / count, Color{0}) /
+                        (count * (count - 1));
+        const Color spread = 4.0 * v * glm::max(product, Color{0}) + 2.0 * v * v;
+        const double error = relative(glm::sqrt(spread), light);
+        blocks_variance += error * error;
     }
-    return {Estimate::of(bias), Estimate::of(blocks)};
+    return {Estimate::of(bias, bias_variance), Estimate::of(blocks, blocks_variance)};
 }
 // [check]
 
