@@ -147,5 +147,22 @@ perl old/tools/pareto --check 2>err.txt && wrong "an old plot of the README is l
 grep -q "is not of today's numbers" err.txt || wrong "$(cat err.txt)"
 [ "$(wc -c <"$LJUS_ROOT/chapters/pictures/pareto.svg")" -lt 100000 ] || wrong "the plot is too large"
 
+# A plot says nothing of gnuplot, and is as high as its legend needs.
+if command -v gnuplot >/dev/null 2>&1; then
+    mkdir -p plots
+    for n in 2 4; do
+        {
+            printf 'set terminal svg size 720,400\nset output "p%s.svg"\nset key outside top horizontal\n' $n
+            printf 'plot for [i=1:%s] i*x title sprintf("a name that fills a row of the legend, %%d", i)\n' $n
+        } >plots/p$n.gp
+        touch plots/p$n.csv
+    done
+    "$LJUS_ROOT/scripts/plot" plots
+    grep -q '<title>\|<desc>\|aria-label' plots/p2.svg && wrong "a plot says what gnuplot says"
+    grep -q '<svg class="ljus-plot"' plots/p2.svg || wrong "a plot has no class"
+    grep -q 'viewBox="0 0 720 400"' plots/p2.svg || wrong "a plot of two rows is higher"
+    grep -q 'viewBox="0 0 720 434"' plots/p4.svg || wrong "a plot shrinks below its legend"
+fi
+
 [ $wrong -eq 0 ] && echo "the book's pages are made and checked as they should be"
 exit $wrong
