@@ -42,6 +42,8 @@ Error against time</div></div>
 <div class="fragment"><div class="line"><a id="l00009" name="l00009"></a><span class="lineno">    9</span> </div>
 <div class="line">std::<span class="keywordtype">float</span>ing_po<span class="keywordtype">int</span> <a class="code hl_function" href="q.html#x">normal</a>;</div></div><!-- fragment -->
 <dl class="exercise"><dt><b><a class="el" href="exercise.html#_exercise000009">Exercise:</a></b></dt><dd>One by importance, \(k\) of \(\frac{a}{b}\).</dd></dl>
+<svg class="ljus-plot" viewBox="0 0 9 9"><g id="gnuplot_canvas"></g></svg>
+<div class="ljus-caption">Noise against time</div>
 <h3>&lt;tt&gt;eon&lt;/tt&gt;</h3>
 <p ><details>
 <summary>More</summary> One.</details>
@@ -49,7 +51,7 @@ Error against time</div></div>
 <p ><details>
 Two.</details>
 </p>
-<table class="markdownTable"><tr><td>2.8e+02</td><td>1.5e+00</td><td>-1.01e+04</td><td>5.4e-05</td><td>1e+06 times</td></tr></table>
+<table class="markdownTable"><tr><td>2.8e+02</td><td>1.5e+00</td><td>-1.01e+04</td><td>5.4e-05</td><td>1e+06 times</td><td class="markdownTableBodyNone"><code>ljus/<a href="x_y.html">x_y.hpp</a></code></td></tr></table>
 </div></div><!-- contents -->
 </body></html>
 END
@@ -61,10 +63,14 @@ grep -q '<body class="ljus-page">' $page || wrong "a page of the book has no cla
 grep -q 'polyfill' $page && wrong "a script comes from the network"
 grep -q 'alt="Two balls."' $page || wrong "a picture has no alt text"
 grep -q '<img src="plot.svg" alt="Error against time"/>' $page || wrong "a plot stands in a frame"
+grep -q 'table-frame"><svg role="img" aria-label="Noise against time" class="ljus-plot"' $page ||
+    wrong "a plot of gnuplot does not scroll, or is not said"
 grep -q '"fragment"><div class="line">std::floating_point normal;' $page || wrong "a listing has wrong links or colours"
 grep -q '<h3><code>eon</code></h3>' $page || wrong "a heading shows the marks of code"
 grep -q '<td>280</td><td>1.5</td><td>-10100</td><td>5.4e-05</td><td>1e+06 times</td>' $page ||
     wrong "a cell is not written out: $(grep '<td>' $page)"
+grep -q '<code>ljus/<a href="x_y.html">x_<wbr/>y.hpp</a></code>' $page || wrong "code in a cell cannot break"
+grep -qF '<span class="ljus-whole">\(\frac{a}{b}\).</span></dd>' $page || wrong "a full stop leaves its formula"
 [ "$(grep -c '<details>' $page)" -eq 1 ] || wrong "a fold of two paragraphs is two folds"
 grep -q 'id="_exercise000009".*Exercise 6.1' $page || wrong "an exercise has no number"
 [ "$(grep -c 'rel="prev" href="ch_ray.html"' $page)" -eq 2 ] || wrong "no chapter before"
@@ -140,6 +146,23 @@ sed -i 's/^0\.0[0-9]*,/0.5,/' old/measured/trades-front-report.csv
 perl old/tools/pareto --check 2>err.txt && wrong "an old plot of the README is let through"
 grep -q "is not of today's numbers" err.txt || wrong "$(cat err.txt)"
 [ "$(wc -c <"$LJUS_ROOT/chapters/pictures/pareto.svg")" -lt 100000 ] || wrong "the plot is too large"
+
+# A plot says nothing of gnuplot, and is as high as its legend needs.
+if command -v gnuplot >/dev/null 2>&1; then
+    mkdir -p plots
+    for n in 2 4; do
+        {
+            printf 'set terminal svg size 720,400\nset output "p%s.svg"\nset key outside top horizontal\n' $n
+            printf 'plot for [i=1:%s] i*x title sprintf("a name that fills a row of the legend, %%d", i)\n' $n
+        } >plots/p$n.gp
+        touch plots/p$n.csv
+    done
+    "$LJUS_ROOT/scripts/plot" plots
+    grep -q '<title>\|<desc>\|aria-label' plots/p2.svg && wrong "a plot says what gnuplot says"
+    grep -q '<svg class="ljus-plot"' plots/p2.svg || wrong "a plot has no class"
+    grep -q 'viewBox="0 0 720 400"' plots/p2.svg || wrong "a plot of two rows is higher"
+    grep -q 'viewBox="0 0 720 434"' plots/p4.svg || wrong "a plot shrinks below its legend"
+fi
 
 [ $wrong -eq 0 ] && echo "the book's pages are made and checked as they should be"
 exit $wrong

@@ -7,11 +7,11 @@ page=$LJUS_ROOT/chapters/one_piece.md
 status=0
 rows=$scratch/rows
 # The rows as HEADER TAB CALL TAB TYPE TAB COUNT, without their backticks.
-sed -n 's/^| [^|]* | `\(ljus[^`]*\)` | `\(.*\)` | `\([^|]*\)` | \([0-9]*\) |$/\1\t\2\t\3\t\4/p' \
+sed -n 's/^| [^|]*<br>`\(ljus[^`]*\)` | `\(.*\)`<br>`\([^|]*\)` | \([0-9]*\) |$/\1\t\2\t\3\t\4/p' \
     "$page" >"$rows"
 [ "$(wc -l <"$rows")" -ge 20 ] || { echo "the table has fewer than 20 rows"; status=1; }
 [ "$(wc -l <"$rows")" -eq "$(($(grep -c '^|' "$page") - 2))" ] ||
-    { echo "a row is not of the form | text | \`header\` | \`call\` | \`type\` | number |"; status=1; }
+    { echo "a row is not of the form | text<br>\`header\` | \`call\`<br>\`type\` | number |"; status=1; }
 
 while IFS=$'\t' read -r header _ _ count; do
     found=$(reached "$include" "$header" | wc -w)

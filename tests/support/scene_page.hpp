@@ -4,6 +4,7 @@
 /// \brief Writes the tables of load_json() as Markdown: the reference part of
 /// chapters/scene_files.md.
 
+#include <cstdio>
 #include <map>
 #include <string>
 
@@ -83,6 +84,19 @@ inline std::string value_text(const JsonValue& value) {
     return "object";
 }
 
+/// A default as a person writes it: 0 for 0.0, and no more than four digits.
+inline std::string written(const nlohmann::ordered_json& value) {
+    if (value.is_array()) {
+        std::string text;
+        for (const auto& one : value) text += (text.empty() ? "" : ", ") + written(one);
+        return "[" + text + "]";
+    }
+    if (!value.is_number()) return value.dump();
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+    return text;
+}
+
 /// The rows of a table, in Markdown.
 inline std::string member_rows(JsonMembers members) {
     std::string text = "| member | value | default | what it is |\n|---|---|---|---|\n";
@@ -91,7 +105,7 @@ inline std::string member_rows(JsonMembers members) {
         text += join({"| `", row.name, "` | ", value_text(row.value), " | ",
                       !row.optional      ? "needed"
                       : preset.is_null() ? "none"
-                                         : preset.dump(),
+                                         : written(preset),
                       " | ", row.text, " |\n"});
     }
     return text;
