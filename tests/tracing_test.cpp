@@ -332,7 +332,8 @@ TEST_CASE("tracing: the parts of a pass, joined, are the pass") {
         CHECK_THROWS_WITH((void)trace_photons(room, map, pass, 4, 3),
                           "the last path is 3; it must be at least 4.");
         CHECK_THROWS_WITH((void)trace_photons(room, map, pass, 0, 1301),
-                          "the number of photons is 1300; it must be at least 1301.");
+                          "the last path is 1301; it must be at most the number of "
+                          "photons, 1300.");
     }
 }
 

@@ -130,6 +130,13 @@ case $way in
         echo "fetched by commit into the build folder; a wrong commit is refused"
         ;;
     missing)
+        # A package that is optional is missing: the rest of the project is configured.
+        run_cmake -S "$LJUS_ROOT" -B "$folder/least" -DLJUS_FETCH=OFF $(hints) \
+            -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenEXR=ON \
+            -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON -DCMAKE_DISABLE_FIND_PACKAGE_Python3=ON \
+            >"$folder/configure.log" 2>&1 ||
+            grep -q "Ljus: .* is not installed; install" "$folder/configure.log" ||
+            { cat "$folder/configure.log"; exit 1; }
         # Nothing is installed and nothing may be fetched: one sentence says what to do.
         if run_cmake -S "$LJUS_ROOT" -B "$folder/build" -DLJUS_FETCH=OFF \
             -DCMAKE_DISABLE_FIND_PACKAGE_glm=ON -DCMAKE_IGNORE_PATH="/usr/include" \

@@ -56,6 +56,14 @@ for row in "photon_path:emission tracing photon" "lamps:goniometric picture_lamp
         *) echo "WRONG: test ${row%%:*}: $said"; wrong=1 ;;
     esac
 done
+# A program for many machines makes no figure: figures does not list it, and refuses its name.
+said=$(bash "$LJUS_ROOT/scripts/figures" --no-install many_machines 2>&1) && wrong=1
+case $said$(bash "$LJUS_ROOT/scripts/figures" --list) in
+    "figures: there is no 'many_machines'; --list shows "*many_machines*)
+        echo "WRONG: figures --list has a program that figures does not run"; wrong=1 ;;
+    "figures: there is no 'many_machines'; --list shows "*) ;;
+    *) echo "WRONG: figures many_machines: $said"; wrong=1 ;;
+esac
 # A new concept gets its five files; one without a chapter, its three.
 mkdir -p "$scratch/new/chapters"
 cp -r "$LJUS_ROOT/scripts" "$scratch/new/"

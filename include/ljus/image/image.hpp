@@ -112,8 +112,8 @@ template <std::floating_point T>
     return image.pixels[detail::pixel_index(image, x, y)];
 }
 
-/// Requires an image of radiances that are finite and at least 0, and not all black.
-/// `what` is the name of the image, for the message.
+/// Requires that the image of a light has radiances that are finite and at least 0, and
+/// not all black. `what` is the name of the image, for the message.
 /// \throws std::invalid_argument  as check(); if a pixel is negative or not finite,
 ///         with its column and row; or if all pixels are black.
 template <std::floating_point T>

@@ -113,8 +113,8 @@ template <std::floating_point T, typename Intensity>
 
 } // namespace detail
 
-/// Prepares a light for its scene. A light that needs no preparation is returned as it
-/// is.
+/// Prepares a light for its scene. The sphere lies around the whole scene; only distant
+/// lights use it. A light that needs no preparation is returned as it is.
 template <typename L, std::floating_point T>
 [[nodiscard]] const L& in_scene(const L& light, const SphereT<T>& /*around*/) noexcept {
     return light;

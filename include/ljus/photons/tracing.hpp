@@ -246,7 +246,9 @@ trace_photons(const W& world, MapType map, const PhotonPassSettings& pass,
     using T = typename W::Scalar;
     require_at_least("the first path", first, 0);
     require_at_least("the last path", last, first);
-    require_at_least("the number of photons", pass.photons, last);
+    if (last > pass.photons)
+        detail::refuse("the last path", last,
+                       "at most the number of photons, " + to_text(pass.photons));
     const auto aim = detail::scene_aim_of(world, map, pass);
     const auto targets = detail::targets_of(world, map, pass);
     detail::PhotonBlockT<T> block;

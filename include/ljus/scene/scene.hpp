@@ -196,6 +196,8 @@ struct Scene;
 /// type. A World is made from the finished scene. Renderers and photon passes take the
 /// World.
 ///
+///     #include <ljus/ljus.hpp> // or the header of each type, and scene/world.hpp
+///
 ///     Scene<Shapes<Sphere>, Materials<Lambertian, Glass>, Lights<PointLight>> scene;
 ///     const auto grey = scene.add(Lambertian{.albedo = Rgb{0.5f}});
 ///     scene.add(Sphere{.center{0, 0, -3}, .radius = 1}, grey);
