@@ -551,6 +551,9 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
          "nodes[0].matrix is a list of 16 entries; it must be a matrix "
          "whose last row, every fourth number, is 0, 0, 0, 1."},
         {"", R"({"scene": 3})", "scene is 3; it must be a whole number within [0, 0]."},
+        {"", R"({"animations": [{}], "nodes": [{}]})",
+         "no face of the file can be used; its scene must have nodes with meshes of "
+         "triangles."},
         {"", R"({"meshes": null})",
          "nodes[0].mesh names one of meshes, but there are none."},
         {"nodes", R"({"mesh": -1})",

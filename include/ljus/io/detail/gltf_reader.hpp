@@ -39,13 +39,13 @@ public:
         loaded_ = &loaded;
         check_kind();
         for (const std::size_t root : roots()) read_tree(root);
-        note_unused();
         std::vector<const MeshMaterial*> known{nullptr};
         for (const auto& [key, made] : materials_) {
             known.resize(std::max(known.size(), std::size_t(made.number) + 1));
             known[made.number] = &made.material;
         }
         std::vector<MeshFacesT<T>> parts = mesh_.take_faces(known);
+        if (!parts.empty()) note_unused(); // which is not why there are no faces
         for (MeshFacesT<T>& part : parts)
             if (part.material.name.empty() && !part.colors.empty())
                 part.material.diffuse = glm::dvec3(1);
