@@ -429,6 +429,7 @@ TEST_CASE("file: what another file names stands beside it, or at the root") {
     CHECK(path_beside("x/a.obj", "b.mtl") == "x/b.mtl");
     CHECK(path_beside("a.obj", "b.mtl") == "b.mtl");
     CHECK(path_beside("x/a.obj", "y/b.mtl") == "x/y/b.mtl");
+    CHECK(path_beside("x/a.obj", "y\\b.mtl") == "x/y/b.mtl");
     CHECK(path_beside("x/a.obj", "/y/b.mtl") == "/y/b.mtl");
     CHECK(path_beside("x/a.obj", "").compare("x/") == 0);
 }

@@ -443,6 +443,11 @@ TEST_CASE("goniometric: files that are none end in a sentence") {
         "0 to 0, 90, 180 or 360, or from 90 to 270.");
     CHECK(why(start + "2 2 2 2 0 0 0 1 1 5 0 90 -45 90 1 1 1 1")
               .ends_with("they must go from 0 or -90 to 90."));
+    // A comma separates numbers.
+    CHECK(why(start + "2 1 1 2 0 0 0 1 1 5 0 90 0 1,5 2,5") ==
+          "a.ies: line 2: a number follows the last intensity; there must be one for "
+          "each pair of angles, and decimals must have a point.");
+    CHECK(why(start + "2 1 1 2 0 0 0 1 1 5 0 90 0 1 2\n\x1a") == "");
     CHECK(why(start + "2 1 1 2 0 0 0 1 1 5 0 90 0 1 -1")
               .ends_with("an intensity is -1; it must be within [0, 1e+9]."));
     for (const char* const bad : {"nan", "inf", "1e999", "1e", "--1", "0x10"})

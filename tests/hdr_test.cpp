@@ -287,6 +287,22 @@ TEST_CASE("hdr: the colour correction of the header is taken out, colours of oth
                                   ", which is not three numbers above 0.");
 }
 
+TEST_CASE("hdr: pixels in XYZE become radiance at 179 lm/W, by Radiance's primaries") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr");
+    // White, a colour within the gamut, and one outside of it. The second is
+    // (1, 0.5, 0.25) by the columns of the primaries, but for the rounding to bytes.
+    ScratchFolder::write(path, "#?RADIANCE\nPRIMARIES=.7 .3 .2 .7 .1 .1 .33 .33\n"
+                               "EXPOSURE=2\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 3\n"
+                               "\xb3\xb3\xb3\x89\x80\x6e\x35\x89" +
+                                   std::string("\0\xb3\0\x88", 4));
+    const ljus::Image image = ljus::load_hdr(path);
+    CHECK(glm::distance(image.pixels[0], ljus::Rgb{1}) < 1e-6f);
+    CHECK(glm::distance(image.pixels[1], ljus::Rgb{0.99937f, 0.49779f, 0.24717f}) <
+          1e-5f);
+    CHECK(glm::distance(image.pixels[2], ljus::Rgb{0, 0.98914f, 0}) < 1e-5f);
+}
+
 TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     const ScratchFolder folder;
     const std::string path = folder.file("a.hdr");
@@ -303,7 +319,7 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     const std::string start = "#?RADIANCE\n";
     for (const std::string& header :
          {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
-          start + "FORMAT=32-bit_rle_xyze\n\n-Y 2 +X 3\n",
+          start + "FORMAT=32-bit_rle_luv\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=-1\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 +X 3\n",
           start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",

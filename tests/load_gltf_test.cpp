@@ -244,6 +244,10 @@ TEST_CASE("load_gltf: nodes place meshes as matrices worked by hand do") {
     CHECK(by_matrix.v1 == Vec3{5, 6, 7});
     CHECK(by_matrix.v2 == Vec3{5, 6, 9});
     CHECK(by_matrix.v3 == Vec3{8, 6, 7});
+    // Some programs round its last row.
+    const Triangle rounded = placed(R"({"matrix":
+        [0, 0, 2, 1e-7, 3, 0, 0, 0, 0, 4, 0, 0, 5, 6, 7, 0.9999999]})"_json);
+    CHECK(rounded.v3 == by_matrix.v3);
     // First the scale, then a quarter turn about z, which takes x to y, then the way.
     const Triangle by_parts = placed(R"({"translation": [1, 0, 0], "scale": [2, 3, 1],
         "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]})"_json);
@@ -487,6 +491,7 @@ TEST_CASE("load_gltf: cameras and lights stand where their nodes do") {
                     "out.") != std::string::npos);
     CHECK(to_text(loaded.report).find("is left out: sun light.direction is") !=
           std::string::npos);
+    CHECK(to_text(loaded.report).find("..") == std::string::npos);
     REQUIRE(loaded.points.size() == 1);
     CHECK(loaded.points[0].position == Vec3{6, 0, 0});
     CHECK(loaded.points[0].intensity == Rgb{72, 36, 0}); // 8 * 3^2
@@ -546,6 +551,9 @@ TEST_CASE("load_gltf: a file that cannot be right is refused with a sentence") {
          "nodes[0].matrix is a list of 16 entries; it must be a matrix "
          "whose last row, every fourth number, is 0, 0, 0, 1."},
         {"", R"({"scene": 3})", "scene is 3; it must be a whole number within [0, 0]."},
+        {"", R"({"animations": [{}], "nodes": [{}]})",
+         "no face of the file can be used; its scene must have nodes with meshes of "
+         "triangles."},
         {"", R"({"meshes": null})",
          "nodes[0].mesh names one of meshes, but there are none."},
         {"nodes", R"({"mesh": -1})",
@@ -687,6 +695,19 @@ TEST_CASE("load_gltf: what is not used is said") {
     dented.all["textures"] = {{{"source", 0}}};
     dented.all["materials"] = {{{"normalTexture", {{"index", 0}}}}};
     dented.primitive()["material"] = 0;
+    // Without its picture a mesh is still a mesh.
+    const auto says = [&](const char* list, const json& first) {
+        File other = dented;
+        other.all[list] = {first};
+        return to_text(read(other).report);
+    };
+    CHECK(says("textures", json::object())
+              .find("textures[0]: it has no source, or one that is not known: export "
+                    "the file again with pictures in PNG or JPEG.\n") !=
+          std::string::npos);
+    CHECK(says("images", {{"uri", "https://a.b/c.png"}})
+              .find("images[0].uri is an address; only files beside this one are "
+                    "read.\n") != std::string::npos);
     const auto says_tangents = [&] {
         const auto all = read(dented).report.notes;
         return std::count(all.begin(), all.end(),

@@ -289,6 +289,38 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("load_obj: the parts of a polygon may meet in one of its corners") {
+    // Two triangles on top of each other, a V, and four random parts around a point.
+    std::vector<Corners> polygons{
+        {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}},
+        {{0, 0, 0}, {2, 3, 0}, {1, 3, 0}, {0, 0, 0}, {-1, 3, 0}, {-2, 3, 0}}};
+    RandomStream stream = random_stream(9, Pass::user, 0, 0);
+    for (int round = 0; round < 50; ++round) {
+        Corners corners;
+        for (int part = 0; part < 4; ++part) {
+            corners.push_back({0, 0, 0});
+            for (int i = 0; i < 4; ++i)
+                corners.push_back(corner(part + i / 5.0 + 0.1 * round,
+                                         0.2 + next_1d<double>(stream)));
+        }
+        polygons.push_back(corners);
+    }
+    for (Corners& polygon : polygons)
+        for (std::size_t first = 0; first < polygon.size(); ++first) {
+            CAPTURE(first);
+            std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+            check_cut(polygon, true);
+        }
+    // No triangle without an area is counted.
+    const auto loaded = read_obj("v 0 0 0\nv 2 0 0\nv 1 1 0\nv 2 2 0\nv 0 2 0\n"
+                                 "f 1 2 3 4 5 3\n",
+                                 "x.obj");
+    CHECK(loaded.parts.at(0).mesh.size() == 2);
+    CHECK(to_text(loaded.report) ==
+          "line 6: 6 edges belong to one face only; the mesh is not closed, and "
+          "unsuitable for glass.\n");
+}
+
 TEST_CASE("load_obj: of corners without an area nothing is cut") {
     // On a line, at one point, there and back again, and too few of them.
     for (const glm::dvec3& along :

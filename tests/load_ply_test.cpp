@@ -296,6 +296,9 @@ TEST_CASE("load_ply: a file that cannot be right is refused with a sentence") {
          "elements face are not used: corners."},
     };
     for (const auto& [text, why] : cases) CHECK(message(text) == "x.ply: " + why);
+    CHECK(message("\xff\xfep") ==
+          "cannot read 'x.ply': its text is UTF-16; save it as UTF-8.");
+    CHECK(message("\xef\xbb\xbf" + head("") + triangle) == "nothing");
 }
 
 TEST_CASE("load_ply: no file that is cut off, or has another byte, crashes it") {

@@ -264,6 +264,10 @@ TEST_CASE("own materials: pictures of MTL files") {
     CHECK(notes("map_Bump -bm 2 lean.bmp\n") ==
           "a.mtl, line 2: map_Bump is a map of heights, which is not used; norm names "
           "one of normals.\n");
+    CHECK(notes("map_Ke grey.png\nKe 1 1 1\nnorm lean.bmp\nnewmtl b\nKe 1 1 1\n") ==
+          "a.mtl, line 2: map_Ke is not used; its material does not glow.\n");
+    CHECK(load_obj(folder.file("a.obj")).parts.at(0).material.emission ==
+          glm::dvec3(0));
     CHECK(notes("Ke 1 1 1\nmap_d grey.png\n") ==
           "a.mtl, line 3: a picture of holes or normals is on what glows; it is not "
           "used.\n");

@@ -1018,7 +1018,7 @@ TEST_CASE("texture: BMP files from the top, of few colours, cut off and compress
 TEST_CASE("texture: of pictures only those are read whose reader is trusted, and of "
           "PNG files only whole ones") {
     const std::string other = "a is not a picture that can be read: it is neither "
-                              "PNG, JPEG nor BMP.";
+                              "PNG, JPEG nor BMP; save it as one of these.";
     // Softimage PIC, Photoshop, GIF, PNM; and TGA, which begins as anything.
     for (const std::string_view begin :
          {std::string_view("\x53\x80\xf6\x34"), std::string_view("8BPS"),

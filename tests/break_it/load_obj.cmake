@@ -88,6 +88,18 @@ ljus_break_it(NAME polygon-straight HEADER geometry/detail/polygon.hpp TEST load
     TO   "return turn(a, b, c) < 0;"
     CASES "load_obj: an ear is cut off*")
 
+# An ear is cut off over the gap between two parts that meet in its corner.
+ljus_break_it(NAME polygon-gap HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "if (is_between(before) && is_between(after)) return false;"
+    TO   ""
+    CASES "load_obj: the parts of a polygon*")
+
+# A corner between two that coincide is no ear.
+ljus_break_it(NAME polygon-back HEADER geometry/detail/polygon.hpp TEST load_obj
+    FROM "if (corners[a] == corners[c]) return true;"
+    TO   ""
+    CASES "load_obj: the parts of a polygon*")
+
 # A polygon on a line is cut into triangles without an area.
 ljus_break_it(NAME polygon-no-area HEADER geometry/detail/polygon.hpp TEST load_obj
     FROM "if (!(glm::dot(across, across) > 0)) return result;"

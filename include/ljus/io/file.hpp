@@ -57,9 +57,10 @@ inline std::string folder_of(const std::string& path) {
     return path.substr(0, path.find_last_of("/\\") + 1); // 0 if there is no slash
 }
 
-// The path of a file that another file names. Unless absolute, it is relative to the
-// folder of that other file.
-inline std::string path_beside(const std::string& file, const std::string& name) {
+// The path of a file that another file names, perhaps with the backslashes of Windows.
+// Unless absolute, it is relative to the folder of that other file.
+inline std::string path_beside(const std::string& file, std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
     return name.starts_with('/') ? name : folder_of(file) + name;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file ljus/io/hdr.hpp
-/// \brief Radiance files (.hdr, RGBE): linear radiance in four bytes per pixel.
+/// \brief Radiance files (.hdr): linear radiance in four bytes per pixel.
 
 #include <algorithm>
 #include <array>
@@ -154,26 +154,29 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 
 } // namespace detail
 
-/// Loads a Radiance file in RGBE with rows from the top, plain or run-length coded, by
-/// today's coding or by that from before 1991.
+/// Loads a Radiance file in RGBE or XYZE with rows from the top, plain or run-length
+/// coded, by today's coding or by that from before 1991.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
-///         header. Colours of other primaries than those of sRGB are converted; their
-///         channels are at least 0, also outside of sRGB's gamut.
+///         header. Colours of other primaries than those of sRGB are converted, and
+///         those of XYZE are divided by 179 lm/W. Their channels are then at least 0,
+///         also outside of sRGB's gamut.
 /// \throws std::runtime_error  with path and reason, if the file cannot be read, is of
-///         an unsupported kind (XYZE, primaries that give no white, a gamma, another
-///         pixel order), or is shorter or longer than its header says.
+///         an unsupported kind (primaries that give no white, a gamma, another pixel
+///         order), or is shorter or longer than its header says.
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
     RgbT<double> exposure{1.0};
     std::optional<glm::dmat3> primaries{glm::dmat3{1}};
+    bool xyze = false;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
         const std::string says = "its header says " + shown(line);
         line.erase(line.find_last_not_of(" \t") + 1);
-        if (line.starts_with("FORMAT=") &&
-            line.substr(std::min(line.find_first_not_of(" \t", 7), line.size())) !=
-                "32-bit_rle_rgbe")
-            reader.fail(says + "; only 32-bit_rle_rgbe is supported");
+        if (line.starts_with("FORMAT=")) {
+            xyze = line.ends_with("32-bit_rle_xyze");
+            if (!xyze && !line.ends_with("32-bit_rle_rgbe"))
+                reader.fail(says + "; it must be 32-bit_rle_rgbe or 32-bit_rle_xyze");
+        }
         if (line.starts_with("PRIMARIES=")) {
             const auto numbers = detail::header_numbers(line, 10);
             const std::vector<double> unknown(8); // so written by image editors
@@ -227,6 +230,12 @@ template <std::floating_point T = float>
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +
                     " bytes more than its pixels require");
+    // From the CIE's X, Y and Z to the primaries of RGBE, with the white (1/3, 1/3).
+    if (xyze)
+        primaries =
+            glm::dmat3{2.56531284,  -1.02210817, 0.07472438, -1.16684962, 1.97828662,
+                       -0.25193957, -0.39846323, 0.04382156, 1.17721519} /
+            179.0;
     detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());
     return image;
 }

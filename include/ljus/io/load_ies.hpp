@@ -65,12 +65,17 @@ struct IesReader {
         }
         return text;
     }
-    double number(const char* what) {
+    /// The next word of the file; empty at its end.
+    std::string_view next_word() {
         std::string_view text = word();
         while (text.empty() && !(words.rest.empty() && rest.empty())) {
             if (words.rest.empty()) words.rest = take();
             text = word();
         }
+        return text;
+    }
+    double number(const char* what) {
+        const std::string_view text = next_word();
         if (text.empty()) refuse_line(join({"the file ends before ", what}));
         const double value = number_of(text);
         if (!std::isfinite(value))
@@ -249,6 +254,10 @@ struct IesGrid {
     const double first = grid.horizontal.front(), last = grid.horizontal.back();
     for (std::size_t i = 0; i < rows * columns; ++i)
         grid.candela.push_back(factor * in.number("an intensity", 0, 1e9));
+    if (std::isfinite(detail::number_of(in.next_word())))
+        in.refuse_line(
+            "a number follows the last intensity; there must be one for each "
+            "pair of angles, and decimals must have a point");
     if (const char* const right = detail::complete(grid, around))
         detail::fail_to_read(
             file, detail::join({"its horizontal angles go from ", to_text(first),

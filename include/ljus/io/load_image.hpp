@@ -152,7 +152,8 @@ DecodedBytes decode_bytes(const Bytes& bytes, long long others, int wanted, bool
     const bool png = text.starts_with("\x89PNG\r\n\x1a\n");
     const bool jpeg = text.starts_with("\xff\xd8\xff");
     if (!png && !jpeg && !text.starts_with("BM"))
-        refuse("is not a picture that can be read: it is neither PNG, JPEG nor BMP");
+        refuse("is not a picture that can be read: it is neither PNG, JPEG nor BMP; "
+               "save it as one of these");
     if (const char* const kind = jpeg ? jpeg_kind_unread(bytes) : nullptr)
         refuse(join({"is a JPEG file ", kind}));
     if (const char* const why = png    ? png_trouble(bytes)

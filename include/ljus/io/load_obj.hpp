@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -32,12 +33,6 @@ namespace ljus {
 
 namespace detail {
 
-// As path_beside(), for names that may have the backslashes of Windows.
-inline std::string file_named(const std::string& beside, std::string name) {
-    std::replace(name.begin(), name.end(), '\\', '/');
-    return path_beside(beside, name);
-}
-
 // Reads one material file, line by line.
 struct MaterialReader {
     const std::string& path;                        // path of the file
@@ -46,7 +41,7 @@ struct MaterialReader {
 
     MeshMaterial ignored{}; // for lines that belong to no new material
     MeshMaterial* material = &ignored;
-    bool has_diffuse = false, has_dissolve = false;
+    bool has_diffuse = false, has_dissolve = false, glows_by_picture = false;
     std::string mirror_at{}; // place of the line illum
     long long number = 0;    // number of the line
     UnusedLines others{};
@@ -130,12 +125,13 @@ struct MaterialReader {
         if (!unused.empty())
             note(keyword, "has options, " + shown(unused) + "; they are not used.");
         if (const std::string name = words.name(); !name.empty())
-            to = {file_named(path, name), where()};
+            to = {path_beside(path, name), where()};
         else
             note(keyword, "names no file.");
     }
     void finish() {
         MeshMaterial& is = *material;
+        if (std::exchange(glows_by_picture, false)) is.emission = glm::dvec3(0);
         const bool black = has_diffuse && is.diffuse == glm::dvec3(0);
         const bool pictured = !is.picture.name.empty();
         if (pictured && (black || !has_diffuse)) {
@@ -199,7 +195,8 @@ struct MaterialReader {
             } else if (is("norm")) {
                 picture(keyword, words, material->normals);
             } else if (is("map_Ke")) {
-                note(keyword, "is not used.");
+                glows_by_picture = true;
+                note(keyword, "is not used; its material does not glow.");
             } else if (is("map_bump") || is("bump")) {
                 note(keyword, "is a map of heights, which is not used; norm names one "
                               "of normals.");
@@ -223,11 +220,11 @@ struct MaterialLibraries {
     // several files without blanks in them. No file is read twice.
     void add(const std::string& names, const std::string& file, long long line,
              MeshReport& report) {
-        if (add_file(file_named(file, names), report)) return;
+        if (add_file(path_beside(file, names), report)) return;
         Words words{names};
         for (std::string_view name = words.next(); !name.empty(); name = words.next())
             if (name.size() == names.size() ||
-                !add_file(file_named(file, Words{name}.name()), report))
+                !add_file(path_beside(file, Words{name}.name()), report))
                 report.add(MeshTrouble::no_library, line);
     }
 

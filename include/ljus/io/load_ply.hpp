@@ -82,7 +82,7 @@ private:
                      "double"}));
     }
     void read_header() {
-        const std::string_view all = rest_;
+        const std::string_view all = rest_ = plain_text(rest_, file_);
         if (take_line(rest_) != "ply") refuse("it does not begin with a line 'ply'");
         const bool cr = all.size() > 4 && all[3] == '\r' && all[4] != '\n';
         bool format = false;

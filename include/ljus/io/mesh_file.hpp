@@ -64,7 +64,8 @@ struct MeshMaterial {
     glm::dvec3 diffuse{0.5};
     /// Specular colour Ks, in [0, 1]; in glTF the base colour of a metal.
     glm::dvec3 specular{0};
-    glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0.
+    glm::dvec3 emission{0}; ///< Emission Ke in W/(m^2 sr), at least 0; 0 if a picture
+                            ///< says where the material glows.
     double roughness = 0;   ///< Roughness of a mirror, 0 or in [0.01, 1]; see GlossyT.
     double index = 1.5;     ///< Index of refraction Ni, within [0.001, 1000].
     /// Opacity d, or 1 - Tr; 0 is clear. If the material has a picture, a Tr of 1

@@ -32,9 +32,10 @@ struct CutPolygon {
 //
 // The corners are given counter-clockwise. A polygon of n corners gives n - 2
 // triangles, and one without an area gives none. Corners may coincide, for example
-// where a bridge connects a hole to the border. If h of n corners are hollow (not
-// convex), O(n h) tests suffice: only a hollow corner can lie in an ear, and cutting an
-// ear off affects only its two neighbours.
+// where a bridge connects a hole to the border, or where parts of the polygon meet in a
+// corner. If h of n corners are hollow (not convex), O(n h) tests suffice: only a
+// hollow corner can lie in an ear, and cutting an ear off affects only its two
+// neighbours.
 [[nodiscard]] inline CutPolygon cut_polygon(std::span<const glm::dvec3> corners) {
     CutPolygon result;
     if (corners.size() < 3) return result;
@@ -79,12 +80,24 @@ struct CutPolygon {
         if (is_hollow(i)) hollow.push_back(left[i]);
     const auto is_ear = [&](std::size_t i) {
         const auto [a, b, c] = at(i);
+        if (corners[a] == corners[c]) return true; // there and back, without an area
         if (!(turn(a, b, c) > 0)) return false;
+        const auto is = [&](std::uint32_t p, std::uint32_t q) {
+            return corners[p] == corners[q];
+        };
+        // Whether p is between the two edges that meet in b, or on one of them.
+        const auto is_between = [&, a = a, b = b, c = c](std::uint32_t p) {
+            return is(p, a) || is(p, c) || (turn(a, b, p) > 0 && turn(b, c, p) > 0);
+        };
         for (const std::uint32_t p : hollow)
-            if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 &&
-                corners[p] != corners[a] && corners[p] != corners[b] &&
-                corners[p] != corners[c]) // a coinciding corner is not inside
+            if (is(p, b)) { // parts of the polygon meet in b, with a gap at p
+                const auto k = std::find(left.begin(), left.end(), p) - left.begin();
+                const auto [before, same, after] = at(std::size_t(k));
+                if (is_between(before) && is_between(after)) return false;
+            } else if (!is(p, a) && !is(p, c) && turn(a, b, p) >= 0 &&
+                       turn(b, c, p) >= 0 && turn(c, a, p) >= 0) {
                 return false;
+            }
         return true;
     };
     std::vector<char> ears; // of the corners in `left`

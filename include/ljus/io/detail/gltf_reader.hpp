@@ -39,13 +39,13 @@ public:
         loaded_ = &loaded;
         check_kind();
         for (const std::size_t root : roots()) read_tree(root);
-        note_unused();
         std::vector<const MeshMaterial*> known{nullptr};
         for (const auto& [key, made] : materials_) {
             known.resize(std::max(known.size(), std::size_t(made.number) + 1));
             known[made.number] = &made.material;
         }
         std::vector<MeshFacesT<T>> parts = mesh_.take_faces(known);
+        if (!parts.empty()) note_unused(); // which is not why there are no faces
         for (MeshFacesT<T>& part : parts)
             if (part.material.name.empty() && !part.colors.empty())
                 part.material.diffuse = glm::dvec3(1);
@@ -55,7 +55,11 @@ public:
 
     // The bytes of the picture of this name.
     Bytes picture(const std::string& name) {
-        const JsonField is = entry(member(file_.root(), "images"), pictures_.at(name));
+        const auto known = pictures_.find(name);
+        if (known == pictures_.end())
+            refuse_file(name, "it has no source, or one that is not known: export the "
+                              "file again with pictures in PNG or JPEG");
+        const JsonField is = entry(member(file_.root(), "images"), known->second);
         if (const auto uri = find(is, "uri"))
             return data_.bytes_of(*uri, max_image_file);
         const std::string_view bytes = data_.view(member(is, "bufferView"));
@@ -87,6 +91,7 @@ private:
         if (notes.size() > most) return;
         const auto name = find(field, "name");
         const bool named = name && name->value.is_string();
+        what.remove_suffix(what.ends_with('.') ? 1 : 0); // of an error's sentence
         notes.push_back(
             join({path_of(field), named ? " (" + shown(text(*name)) + ") " : " ", what,
                   "."}));
@@ -200,8 +205,9 @@ private:
         if (const auto field = find(node, "matrix")) {
             const std::vector<double> all = list_of(*field, 16);
             for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = all[std::size_t(i)];
-            for (int i = 0; i < 4; ++i)
-                if (matrix[i][3] != (i == 3 ? 1 : 0))
+            for (int i = 0; i < 4; ++i) // rounded by some programs
+                if (const double last = i == 3 ? 1 : 0;
+                    std::abs(std::exchange(matrix[i][3], last) - last) > 1e-5)
                     refuse_value(*field, "a matrix whose last row, every fourth "
                                          "number, is 0, 0, 0, 1");
             return matrix;
@@ -389,17 +395,17 @@ private:
             mesh_.add_uv(uv[2 * i], 1 - uv[2 * i + 1]);
         return surface;
     }
-    // The name of a texture's picture.
+    // The name of a texture's picture; that of the texture if it has none.
     std::string picture_of(const JsonField& texture) {
         const JsonField is = file_.named(member(texture, "index"), "textures");
         const auto source = find(is, "source");
-        if (!source) refuse(is, "has no source");
+        if (!source) return join({file_.name, ", ", path_of(is)});
         const std::size_t number = file_.number_in(*source, "images");
         const JsonField image = file_.named(*source, "images");
         const auto uri = find(image, "uri");
         std::string name =
             uri && !text(*uri).starts_with("data:")
-                ? path_of_uri(*uri)
+                ? path_beside(file_.name, decoded(text(*uri)))
                 : file_.name + ", images[" + std::to_string(number) + "]";
         pictures_.try_emplace(name, number);
         return name;

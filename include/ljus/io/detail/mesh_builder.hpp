@@ -281,11 +281,11 @@ private:
         keep_what_all_have();
         const CutPolygon cut = cut_polygon(face_positions_);
         const std::size_t before = lines_.size();
-        bool empty = cut.triangles.empty();
-        for (const auto& [a, b, c] : cut.triangles)
-            empty = !add({face_[a], face_[b], face_[c]}) || empty;
-        if (lines_.size() > before) count_face();
-        if (empty) report.add(MeshTrouble::no_area, place);
+        for (const auto& [a, b, c] : cut.triangles) add({face_[a], face_[b], face_[c]});
+        if (lines_.size() > before)
+            count_face();
+        else
+            report.add(MeshTrouble::no_area, place);
         if (cut.crossed) report.add(MeshTrouble::crossed, place);
     }
     // If a corner of a face lacks a valid normal or valid texture coordinates, these
@@ -313,12 +313,12 @@ private:
             report.add(MeshTrouble::not_smooth, place);
         all.no_uv_faces += face_[0][of_uv] == no_number ? 1 : 0;
     }
-    // Adds one triangle of a face; returns false if it has no area.
-    bool add(std::array<MeshCorner, 3> corners) {
+    // Adds one triangle of a face, unless it has no area.
+    void add(std::array<MeshCorner, 3> corners) {
         const auto across = cross_of_edges(TriangleT<T>{
             position(corners[0][of_position]), position(corners[1][of_position]),
             position(corners[2][of_position])});
-        if (!(glm::dot(across, across) > 0)) return false;
+        if (!(glm::dot(across, across) > 0)) return;
         if (corners[0][of_normal] != no_number) {
             Vec3T<T> sum{0};
             for (const MeshCorner& corner : corners) sum += normals_[corner[of_normal]];
@@ -330,7 +330,6 @@ private:
         whole_.triangles.push_back(
             {vertex_of(corners[0]), vertex_of(corners[1]), vertex_of(corners[2])});
         lines_.push_back(static_cast<std::uint32_t>(place));
-        return true;
     }
     // Equal corners share a vertex if it is one of the last 64 at their position.
     std::uint32_t vertex_of(const MeshCorner& corner) {
