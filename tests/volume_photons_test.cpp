@@ -125,6 +125,63 @@ TEST_CASE("volume_photons: over all parallel rays a photon gives its flux, dimme
         }
 }
 
+TEST_CASE("volume_photons: along its border fog is as bright as within, and dark out") {
+    // Photons evenly spread over two fogs of the same photons per volume.
+    Place scene;
+    scene.add(Sphere{.center{0, 0, 50}, .radius = 1}, scene.add(Lambertian{}));
+    scene.add(Fog<Sphere>{.region{.radius = 2}, .scattering = Rgb{1e-4f}});
+    scene.add(Fog<Box>{.region{{-2, -2, -2}, {2, 0.05f, 2}}, .scattering = Rgb{1e-4f}});
+    const World world(std::move(scene));
+    constexpr int count = 100'000;
+    std::vector<Photon> photons = some_photons(count, 7);
+    for (Photon& photon : photons) photon.flux = Rgb{1};
+    std::erase_if(photons, [](const Photon& photon) {
+        return photon.light == 0 ? glm::length(photon.position) > 2
+                                 : photon.position.y > 0.05f;
+    });
+    const VolumeMap map = make_volume_map(photons, {.radius = 0.2f});
+    const auto seen = [&](float x, float y, std::uint32_t medium) {
+        std::uint64_t visited = 0;
+        VolumeMap of_fog = map;
+        for (VolumePhoton& photon : of_fog.photons)
+            if (photon.medium != medium) photon.flux = Rgb{0};
+        double sum = 0;
+        constexpr int rays = 64; // around the z-axis for the sphere
+        for (int i = 0; i < rays; ++i) {
+            const float part = (float(i) + 0.5f) / rays;
+            const float turn = 2 * std::numbers::pi_v<float> * part;
+            const Vec3 origin = medium == 1
+                                    ? Vec3{x == 0 ? 3 * part - 1.5f : x, y, -3}
+                                    : Vec3{y * std::cos(turn), y * std::sin(turn), -3};
+            sum += double(estimate_beam(world, of_fog,
+                                        Ray{.origin = origin, .direction{0, 0, 1}},
+                                        Kernel::epanechnikov, visited)
+                              .x);
+        }
+        return sum / rays;
+    };
+    const double density = count / 2.0 / 64 / (4 * std::numbers::pi);
+    struct Row {
+        float x, y;
+        std::uint32_t medium;
+        double length;
+    };
+    for (const auto& [x, y, medium, length] :
+         {Row{0, -1, 1, 4},          // within the box; x varies
+          Row{0, 0.04f, 1, 4},       // along a side
+          Row{1.97f, 0.04f, 1, 4},   // along an edge
+          Row{0, 0.06f, 1, 0},       // outside
+          Row{0, 1.5f, 0, 2.64575},  // within the sphere
+          Row{0, 1.95f, 0, 0.88882}, // near its rim
+          Row{0, 2.01f, 0, 0}}) {
+        CAPTURE(x);
+        CAPTURE(y);
+        CAPTURE(medium);
+        CHECK(std::abs(seen(x, y, medium) - density * length) <=
+              0.05 * density * length);
+    }
+}
+
 TEST_CASE("volume_photons: the tree finds what a loop over all photons finds") {
     const auto world = two_fogs();
     auto stream = random_stream(2, Pass::user, 0, 0);

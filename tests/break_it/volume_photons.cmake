@@ -15,16 +15,23 @@ ljus_break_it(NAME volume-photons-phase HEADER photons/volume_photons.hpp
 # The fog between photon and eye is forgotten.
 ljus_break_it(NAME volume-photons-dimmed HEADER photons/volume_photons.hpp
     TEST volume_photons
-    FROM "before.t_max = t;"
+    FROM "before.t_max = at.x;"
     TO   "before.t_max = T(0);"
     CASES "volume_photons: over all parallel rays*")
 
 # Photons behind a wall are seen.
 ljus_break_it(NAME volume-photons-behind HEADER photons/volume_photons.hpp
     TEST volume_photons
-    FROM "t > ray.t_min && t < ray.t_max && distance2"
-    TO   "t > ray.t_min && distance2"
+    FROM "at.x > span->first && at.x < span->last && at.y"
+    TO   "at.x > span->first && at.y"
     CASES "volume_photons: the tree finds*")
+
+# The fog is dark along its border.
+ljus_break_it(NAME volume-photons-border HEADER media/fog.hpp
+    TEST volume_photons
+    FROM "image[axis] += shift;"
+    TO   "image[axis] += 2 * shift;"
+    CASES "volume_photons: along its border*")
 
 # The photon counts among its neighbours.
 ljus_break_it(NAME volume-photons-itself HEADER photons/volume_photons.hpp

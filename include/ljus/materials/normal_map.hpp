@@ -15,6 +15,11 @@ namespace ljus {
 ///
 /// The picture turns only the shading normal. The geometric normal, the outlines and
 /// the shadows remain those of the shape.
+///
+/// Photons between such surfaces lose light where the two normals disagree about a
+/// direction. Indirect light from photons is therefore some 2, 6 and 10 % too dark in a
+/// room whose normals lean by 10, 20 and 30 degrees; IndirectLight::rays has no such
+/// bias.
 /// \{
 
 /// A picture of normals, for Textured. Red, green and blue are (1 + n)/2, where n is

@@ -83,6 +83,35 @@ template <std::floating_point T>
     return span;
 }
 
+/// Calls f with a point in a sphere and, if the border is within `reach` of the point,
+/// with its mirror image in the border, which lies on the same radius.
+template <std::floating_point T, typename F>
+void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f) {
+    f(point);
+    const Vec3T<T> off = point - sphere.center;
+    const T distance = glm::length(off);
+    const T inside = sphere.radius - distance;
+    if (inside >= T(0) && inside < reach && distance > T(0))
+        f(sphere.center + (2 * sphere.radius / distance - 1) * off);
+}
+
+/// Calls f with a point in a box and with its mirror images in the sides that are
+/// within `reach` of it, and in the edges and corners between these sides.
+/// \param axis  The first axis across which to mirror.
+template <std::floating_point T, typename F>
+void each_image(const BoxT<T>& box, const Vec3T<T>& point, T reach, F&& f,
+                int axis = 0) {
+    if (axis == 3) return f(point);
+    each_image(box, point, reach, f, axis + 1);
+    const T above = point[axis] - box.low[axis], below = box.high[axis] - point[axis];
+    for (const T shift : {-2 * above, 2 * below})
+        if (above >= T(0) && below >= T(0) && std::abs(shift) < 2 * reach) {
+            Vec3T<T> image = point;
+            image[axis] += shift;
+            each_image(box, image, reach, f, axis + 1);
+        }
+}
+
 /// The smallest box around a sphere.
 template <std::floating_point T>
 [[nodiscard]] BoxT<T> bounds_of(const SphereT<T>& sphere) noexcept {
@@ -168,6 +197,13 @@ template <typename Region, std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_phase(const Fog<Region>& fog, const Vec3T<T>& travel,
                                     const Vec2T<T>& u) noexcept {
     return sample_henyey_greenstein(fog.g, travel, u);
+}
+
+/// Calls f with a point of the fog and with its mirror images in the border of the fog,
+/// where that is within `reach` of the point.
+template <typename Region, std::floating_point T, typename F>
+void each_image(const Fog<Region>& fog, const Vec3T<T>& point, T reach, F&& f) {
+    each_image(fog.region, point, reach, f);
 }
 
 /// \}

@@ -31,6 +31,8 @@ namespace ljus {
 /// | scattering(medium)              | scattering alone, per scene unit              |
 /// | phase(medium, cosine)           | the phase function, per steradian             |
 /// | sample_phase(medium, travel, u) | a direction of travel, with density phase()   |
+/// | each_image(medium, p, reach, f) | nothing; calls f(p), and f(q) with each       |
+/// |                                 | mirror image q of p in a border within reach  |
 /// \{
 
 /// An interval of the parameter t of a ray.
@@ -53,6 +55,7 @@ concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
     { scattering(medium) } -> std::same_as<RgbT<typename M::Scalar>>;
     { phase(medium, cosine) } -> std::same_as<typename M::Scalar>;
     { sample_phase(medium, travel, u) } -> std::same_as<Vec3T<typename M::Scalar>>;
+    each_image(medium, travel, cosine, [](const Vec3T<typename M::Scalar>&) {});
 };
 
 /// \}

@@ -41,7 +41,8 @@ struct ScatteredT {
 /// of Veach's Eq. 5.19, where N_s is the shading normal, N_g the geometric normal,
 /// \f$\omega_o\f$ the direction back along the path of the photon, and \f$\omega_i\f$
 /// the sampled direction. With this factor, photons and camera paths find the same
-/// light.
+/// light, except where the two normals disagree: by the rules above photons lose light
+/// there that camera paths find.
 /// `material` comes from visit_material_at(), and `u` is a point of the unit cube.
 /// \return The direction; nothing if the path ends.
 /// \cite veach1997

@@ -155,7 +155,9 @@ template <std::floating_point T>
     return static_cast<T>(std::exp(logarithms));
 }
 
-/// The radiance that one photon adds to a ray.
+/// The radiance that one photon adds to a ray. The part of its disc that lies outside
+/// the fog is folded back at the border, by mirror images of the photon: without them
+/// the fog would be too dark within a radius of its border, and would glow outside.
 /// \param world   The closed scene.
 /// \param photon  The photon.
 /// \param ray     The ray, which has a unit direction and lies outside all bodies. Its
@@ -167,21 +169,30 @@ template <std::floating_point T>
 template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 [[nodiscard]] RgbT<T> light_of_photon(const W& world, const VolumePhotonT<T>& photon,
                                       const RayT<T>& ray, const K& kernel) {
-    const Vec3T<T> to = photon.position - ray.origin;
-    const T t = glm::dot(to, ray.direction);
-    const Vec3T<T> off = to - t * ray.direction;
+    RgbT<T> light{T(0)};
     const T radius2 = photon.radius * photon.radius;
-    const T distance2 = glm::dot(off, off);
-    if (!(t > ray.t_min && t < ray.t_max && distance2 < radius2)) return RgbT<T>{T(0)};
-    RayT<T> before = ray;
-    before.t_max = t;
-    T turned = T(0);
+    const auto place = [&](const Vec3T<T>& position) { // t and the squared distance
+        const Vec3T<T> to = position - ray.origin;
+        const T t = glm::dot(to, ray.direction);
+        const Vec3T<T> off = to - t * ray.direction;
+        return Vec2T<T>{t, glm::dot(off, off)};
+    };
+    if (!(place(photon.position).y < radius2)) return light; // nor do its images count
     visit_fog(world, photon.medium, [&](const auto& medium) {
-        turned = phase(medium, -glm::dot(ray.direction, photon.direction));
+        const auto span = span_in(medium, ray); // where the ray is in this fog
+        if (!span) return;
+        const T turned = phase(medium, -glm::dot(ray.direction, photon.direction));
+        each_image(medium, photon.position, photon.radius, [&](const auto& image) {
+            const Vec2T<T> at = place(image);
+            if (!(at.x > span->first && at.x < span->last && at.y < radius2)) return;
+            RayT<T> before = ray;
+            before.t_max = at.x;
+            light += turned * kernel_weight(kernel, at.y / radius2) /
+                     (std::numbers::pi_v<T> * radius2) * photon.flux *
+                     transmittance(optical_depth(world, before), T(1));
+        });
     });
-    return turned * kernel_weight(kernel, distance2 / radius2) /
-           (std::numbers::pi_v<T> * radius2) * photon.flux *
-           transmittance(optical_depth(world, before), T(1));
+    return light;
 }
 // [beam]
 
@@ -198,9 +209,9 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
 // [plain beam]
 
 /// The radiance that fog scatters along a ray to its origin, from the photons of a map.
-/// The estimate is too dark near the border of the fog and near surfaces: a photon is
-/// spread over a ball, of which a part lies outside the fog there. Objects between a
-/// photon and the ray are ignored.
+/// The estimate is too dark near surfaces inside the fog: a photon is spread over a
+/// ball, of which a part lies behind the surface there. Objects between a photon and
+/// the ray are ignored.
 /// \param world    The closed scene.
 /// \param map      The photons.
 /// \param ray      As for light_of_photon().

@@ -149,7 +149,7 @@ enum class Preset : std::uint8_t {
     /// Few visible errors in little time. More rays do not reduce the bias of this
     /// preset. Indirect light is smoothed over 4 pixels. The last 8 pixels before a
     /// dark corner are therefore too bright, by 10 % or more. Penumbras are slightly
-    /// wrong. Caustics and glossy reflections are blurred.
+    /// wrong. Caustics, glossy reflections and light in fog are blurred.
     fast,
     /// Indirect rays at every bounce; only caustics and light in fog are biased.
     exact
