@@ -39,7 +39,9 @@ namespace ljus {
 ///
 /// A glossy surface is a D, with one exception. IndirectLight::gather and cache treat a
 /// nearly_specular() surface as an S if it lies between a light and a surface with a
-/// diffuse lobe. At all other glossy surfaces camera paths continue.
+/// diffuse lobe. Without such surfaces in the scene, a camera path ends at the first
+/// glossy surface after a D: the general map has its indirect light. At all other
+/// glossy surfaces camera paths continue.
 ///
 /// Photon maps are not queried for the light that rough glass scatters through itself,
 /// see scatters_through(). Paths therefore continue at rough glass, even with
@@ -694,7 +696,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
             const auto at_material = [&]<typename M>(const M& material) {
                 const Lobes parts = lobes(material);
                 const bool through = scatters_through(material);
-                bool gather = second && !through, mirror = false;
+                bool gather = second && !through, mirror = false, ends = false;
                 if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
                     if (second && settings.indirect != IndirectLight::map &&
                         (has(parts, Lobes::glossy) || mapper.maps().starved)) {
@@ -702,18 +704,24 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         gather = false;
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
+                        ends = ends_on_gloss(mapper, material);
                     }
                 const bool follow =
                     mirror || (through && settings.indirect == IndirectLight::photons);
-                const Lobes open = gather   ? Lobes::specular
-                                   : follow ? Lobes::all
-                                            : mapper.bounces();
+                const Lobes open = gather || ends ? Lobes::specular
+                                   : follow       ? Lobes::all
+                                                  : mapper.bounces();
                 if constexpr (!OnlySpecular<M>)
                     if (has(parts, Lobes::non_specular) && !mirror) {
                         const auto direct =
                             detail::direct_light_at(mapper, path, material, open);
                         light_at(mapper, *vertex, material, gather, direct, context,
                                  add);
+                        if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
+                            if (ends)
+                                add("general map", "D..DL",
+                                    photons_on_gloss(mapper, *vertex, material,
+                                                     context.counts));
                         if (direct.next != Lobes::none) sharing = direct.rays;
                         if (!gather)
                             gloss_mirrors = mapper.passes().gloss_as_mirrors &&
