@@ -165,10 +165,10 @@ template <Shape Flat, std::floating_point T>
 [[nodiscard]] auto form_factor_from(const Vec3T<T>& from, const Vec3T<T>& normal,
                                     const Flat& lamp, bool inside_out) noexcept
     -> decltype(facet_of(lamp), std::optional<T>{}) {
-    const Facet facet = facet_of(lamp);
+    Facet facet = facet_of(lamp);
+    if (inside_out) facet = detail::turned(facet); // otherwise without a copy
     return static_cast<T>(
-        detail::form_factor_fast(glm::dvec3(from), glm::dvec3(normal),
-                                 inside_out ? detail::turned(facet) : facet));
+        detail::form_factor_fast(glm::dvec3(from), glm::dvec3(normal), facet));
 }
 /// \}
 

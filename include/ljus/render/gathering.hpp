@@ -75,6 +75,32 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                              context.stream);
 }
 
+/// Whether a path that has met a diffuse surface ends at a glossy material, where
+/// photons_on_gloss() finds its indirect light. With nearly_specular() objects in the
+/// scene the path goes on, because the general map lacks the light that they reflect.
+template <typename Mapper, Material M>
+[[nodiscard]] bool ends_on_gloss(const Mapper& mapper, const M& material) noexcept {
+    return mapper.template state<Gathering>().points.disc > 0 &&
+           !mapper.passes().gloss_as_mirrors && !scatters_through(material) &&
+           !has(lobes(material), Lobes::diffuse);
+}
+
+/// The indirect radiance that a surface with a wide glossy lobe reflects to the viewer,
+/// in W/(m^2 sr), estimated from the general map. The disc is small and typically holds
+/// 14 photons: the mean over the paths of a pixel reduces noise, but not blur.
+template <typename Mapper, std::floating_point T, Material M>
+[[nodiscard]] RgbT<T> photons_on_gloss(const Mapper& mapper, const VertexT<T>& vertex,
+                                       const M& material, Counts& counts) {
+    ++counts.map_queries;
+    const T radius = mapper.template state<Gathering>().points.disc / 6;
+    const VertexT<T>& resting = detail::at_rest(mapper.world(), vertex);
+    return estimate_radiance(mapper.maps().general, resting, material, vertex.wo,
+                             DensityEstimateSettings{.radius = float(radius)},
+                             one_kind(PhotonKind::indirect), counts.map_photons) /
+           part_on_surface(mapper.world(), resting, detail::seen_normal(resting),
+                           radius);
+}
+
 /// The indirect radiance that a matt surface reflects to the viewer, computed from the
 /// irradiance cache.
 /// \param mapper    A PhotonMapper with the ability Gathering.

@@ -39,7 +39,9 @@ namespace ljus {
 ///
 /// A glossy surface is a D, with one exception. IndirectLight::gather and cache treat a
 /// nearly_specular() surface as an S if it lies between a light and a surface with a
-/// diffuse lobe. At all other glossy surfaces camera paths continue.
+/// diffuse lobe. Without such surfaces in the scene, a camera path ends at the first
+/// glossy surface after a D: the general map has its indirect light. At all other
+/// glossy surfaces camera paths continue.
 ///
 /// Photon maps are not queried for the light that rough glass scatters through itself,
 /// see scatters_through(). Paths therefore continue at rough glass, even with
@@ -482,10 +484,9 @@ inline constexpr bool lists_gloss = W::any_material([]<typename M>() {
 });
 
 /// How direct light is found at a surface. If a path continues at a glossy surface, its
-/// next ray also serves to find lamps, so that no other ray is sent for them. At glossy
-/// surfaces after the first diffuse surface, a single shadow ray to each light is
-/// enough, unless nearly specular surfaces count as mirrors. A branch that was split
-/// off at glass and carries less than half of the light needs fewer shadow rays.
+/// next ray also serves to find lamps. A single shadow ray to each light is enough
+/// there, and at any glossy surface after the first diffuse surface. A branch that was
+/// split off at glass and carries less than half of the light needs fewer shadow rays.
 /// \param open  The lobes by which the path continues.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] DirectLightSettings direct_light_at(const Mapper& mapper,
@@ -500,12 +501,12 @@ template <typename Mapper, std::floating_point T, Material M>
     }
     if (has(lobes(material), Lobes::diffuse) || how.how == DirectLight::sampled)
         return how;
-    if (path.met_diffuse && !mapper.passes().gloss_as_mirrors) how.rays = 1;
     const bool may_skip =
         mapper.passes().skipped_bounces && !scatters_through(material);
     if (has(open, Lobes::glossy) && path.depth < settings.max_depth && !may_skip &&
         !mapper.world().has_fog())
         how.next = open;
+    if (path.met_diffuse || how.next != Lobes::none) how.rays = 1;
     return how;
 }
 
@@ -631,6 +632,10 @@ inline constexpr std::size_t max_splits = 8;
 /// noise. The expected value does not depend on the factor.
 inline constexpr int split_survival = 64;
 
+/// Threshold of roulette after a glossy surface, see survives(). Roulette makes the few
+/// paths that survive bright. Where such paths meet a lamp, they are bright noise.
+inline constexpr double gloss_threshold = 0.25;
+
 } // namespace detail
 
 /// The radiance that one camera path finds with the photon maps.
@@ -691,7 +696,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
             const auto at_material = [&]<typename M>(const M& material) {
                 const Lobes parts = lobes(material);
                 const bool through = scatters_through(material);
-                bool gather = second && !through, mirror = false;
+                bool gather = second && !through, mirror = false, ends = false;
                 if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
                     if (second && settings.indirect != IndirectLight::map &&
                         (has(parts, Lobes::glossy) || mapper.maps().starved)) {
@@ -699,18 +704,24 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         gather = false;
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
+                        ends = ends_on_gloss(mapper, material);
                     }
                 const bool follow =
                     mirror || (through && settings.indirect == IndirectLight::photons);
-                const Lobes open = gather   ? Lobes::specular
-                                   : follow ? Lobes::all
-                                            : mapper.bounces();
+                const Lobes open = gather || ends ? Lobes::specular
+                                   : follow       ? Lobes::all
+                                                  : mapper.bounces();
                 if constexpr (!OnlySpecular<M>)
                     if (has(parts, Lobes::non_specular) && !mirror) {
                         const auto direct =
                             detail::direct_light_at(mapper, path, material, open);
                         light_at(mapper, *vertex, material, gather, direct, context,
                                  add);
+                        if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
+                            if (ends)
+                                add("general map", "D..DL",
+                                    photons_on_gloss(mapper, *vertex, material,
+                                                     context.counts));
                         if (direct.next != Lobes::none) sharing = direct.rays;
                         if (!gather)
                             gloss_mirrors = mapper.passes().gloss_as_mirrors &&
@@ -744,7 +755,8 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                                     ? path.eta_scale / T(detail::split_survival)
                                     : path.eta_scale;
             if (path.depth >= settings.roulette_depth &&
-                !survives(path.throughput, eta_scale, next_1d<T>(context.stream)))
+                !survives(path.throughput, eta_scale, next_1d<T>(context.stream),
+                          sharing > 0 ? T(detail::gloss_threshold) : T(1)))
                 return;
             ++context.counts.bounce_rays;
         }
