@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "ljus/accel/instances.hpp"
+#include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/ljus.hpp"
 #include "ljus/photons/tracing.hpp"
 #include "ljus/render/path_tracing.hpp"
@@ -205,6 +206,22 @@ TEST_CASE("normal map: photons land with the cosine of the mapped normal") {
         CHECK(photon.flux.x ==
               doctest::Approx(4 * std::numbers::pi / count * factor).epsilon(1e-4));
     }
+}
+
+TEST_CASE("normal map: that photons lose light between them is said") {
+    const auto said = [](const Vec3& normal, IndirectLight indirect) {
+        const World world(
+            make_scene(placed(floor_quad, tilted(normal)),
+                       PointLight{.position{0, 1, 0}, .intensity = Rgb{1}}));
+        const PhotonMapper mapper(world,
+                                  {.indirect = indirect, .general{.photons = 100}});
+        return mapper_remarks(mapper).find("1 object(s) have normal maps") !=
+               std::string::npos;
+    };
+    CHECK(said({0.6f, 0, 0.8f}, IndirectLight::photons));
+    CHECK(said({0.6f, 0, 0.8f}, IndirectLight::map));
+    CHECK_FALSE(said({0.6f, 0, 0.8f}, IndirectLight::rays));
+    CHECK_FALSE(said({0, 0, 1}, IndirectLight::photons));
 }
 
 TEST_CASE("normal map: what faces away is not black, and smooth normals are the base") {

@@ -199,8 +199,8 @@ struct CheckedError {
         const Color product = (sum * sum - squares) / (count * (count - 1));
         blocks.push_back(relative(product, light));
         // With the variance v of the mean, a product of two has 4 v m^2 + 2 v^2.
-        const Color v = glm::max(squares - sum * sum / count, Color{0}) /
-                        (count * (count - 1));
+        const Color v =
+            glm::max(squares - sum * sum / count, Color{0}) / (count * (count - 1));
         const Color spread = 4.0 * v * glm::max(product, Color{0}) + 2.0 * v * v;
         const double error = relative(glm::sqrt(spread), light);
         blocks_variance += error * error;
