@@ -96,8 +96,8 @@ void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f)
 }
 
 /// Calls f with a point in a box and with its mirror images in the sides that are
-/// within `reach` of it, and in the edges and corners between these sides.
-/// \param axis  The first axis across which to mirror.
+/// within `reach` of it, and in the edges and corners between these sides. It begins
+/// with the sides across `axis`.
 template <std::floating_point T, typename F>
 void each_image(const BoxT<T>& box, const Vec3T<T>& point, T reach, F&& f,
                 int axis = 0) {
