@@ -55,7 +55,7 @@ TEST_CASE("load_ply: what other programs write") {
         "property list uchar float texcoord\r\nend_header\r\n"
         "2 0.5 0.25 -7\r\n"
         "0 9 0 0 0 0\r\n2 9 0 0 1 0\r\n2 9 2 0 1 1\r\n0 9 2 0 0 1\r\n"
-        "1 4 0 1 2 3 2 0 0\r\n";
+        "1 4 0 1 2 3 2 1 2\r\n";
     const auto loaded = read(text);
     const Mesh& mesh = loaded.parts.at(0).mesh;
     CHECK(mesh.size() == 2);
