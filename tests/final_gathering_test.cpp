@@ -530,7 +530,7 @@ TEST_CASE("final gathering: points at photons, with all the light that is there"
         make_irradiance_points(world, even, PhotonMap{}, {.nearest = 512}, 1, 3);
     CHECK(most.radius == 4 * typical_radius(even, 511)); // its largest number
     CHECK_THROWS_WITH(
-        make_irradiance_points(world, even, PhotonMap{}, {.every = 0}, 1, 3),
+        (void)make_irradiance_points(world, even, PhotonMap{}, {.every = 0}, 1, 3),
         "irradiance.every is 0; it must be at least 2.");
     for (const auto& record : of_pairs(0, 1).records)
         CHECK(is_finite(record.irradiance));

@@ -166,19 +166,18 @@ TEST_CASE("volume_photons: along its border fog is as bright as within, and dark
         std::uint32_t medium;
         double length;
     };
-    for (const auto& [x, y, medium, length] :
-         {Row{0, -1, 1, 4},          // within the box; x varies
-          Row{0, 0.04f, 1, 4},       // along a side
-          Row{1.97f, 0.04f, 1, 4},   // along an edge
-          Row{0, 0.06f, 1, 0},       // outside
-          Row{0, 1.5f, 0, 2.64575},  // within the sphere
-          Row{0, 1.95f, 0, 0.88882}, // near its rim
-          Row{0, 2.01f, 0, 0}}) {
-        CAPTURE(x);
-        CAPTURE(y);
-        CAPTURE(medium);
-        CHECK(std::abs(seen(x, y, medium) - density * length) <=
-              0.05 * density * length);
+    for (const Row& is : {Row{0, -1, 1, 4},          // within the box; x varies
+                          Row{0, 0.04f, 1, 4},       // along a side
+                          Row{1.97f, 0.04f, 1, 4},   // along an edge
+                          Row{0, 0.06f, 1, 0},       // outside
+                          Row{0, 1.5f, 0, 2.64575},  // within the sphere
+                          Row{0, 1.95f, 0, 0.88882}, // near its rim
+                          Row{0, 2.01f, 0, 0}}) {
+        CAPTURE(is.x);
+        CAPTURE(is.y);
+        CAPTURE(is.medium);
+        CHECK(std::abs(seen(is.x, is.y, is.medium) - density * is.length) <=
+              0.05 * density * is.length);
     }
 }
 
