@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ljus/version.hpp"
+
 namespace ljus {
 
 /// \defgroup nearest_word Did you mean
