@@ -103,6 +103,54 @@ TEST_CASE("irradiance cache: a point counts as far as its nearest like ones lie"
     CHECK(alone.records[0].spacing == 0); // it says nothing of how far it counts
 }
 
+TEST_CASE("irradiance cache: what one ray has found is spread over near points") {
+    // 100 points on a floor and 100 on a wall through its middle, which know 1. At one
+    // point of the floor, one ray has found `more` beside that.
+    const auto spread = [](float more, float distance) {
+        std::vector<Vec3> places;
+        std::vector<GatheredT<float>> records;
+        for (int i = 0; i < 200; ++i) {
+            const float x = float(i % 10), y = float(i / 10 % 10);
+            const bool wall = i >= 100;
+            places.push_back(wall ? Vec3{4.5f, x, y - 4.5f} : Vec3{x, y, 0});
+            records.push_back({.irradiance = Rgb{1},
+                               .normal = wall ? Vec3{1, 0, 0} : up,
+                               .distance = 100,
+                               .brightest = Rgb{0.1f}});
+        }
+        records[44].irradiance += Rgb{more, 0, more};
+        records[44].brightest = Rgb{more, 0, more};
+        records[44].distance = distance;
+        const auto cache = make_irradiance_cache(places, records, GatherSettings{}, 1);
+        std::vector<Rgb> found(200);
+        for (std::size_t i = 0; i < 200; ++i)
+            found[cache.tree.point_ids()[i]] = cache.records[i].irradiance;
+        return found;
+    };
+    const auto changed = [](const std::vector<Rgb>& found, float value) {
+        int count = 0;
+        for (std::size_t i = 0; i < 200; ++i) {
+            CHECK(found[i].y == 1);
+            if (found[i].x == 1) continue;
+            ++count;
+            CHECK(i < 100); // the wall has another normal
+            CHECK(found[i].x == doctest::Approx(value));
+            CHECK(found[i].z == found[i].x);
+        }
+        return count;
+    };
+    CHECK(changed(spread(32, 100), 1.5f) == 64);
+    // Within a distance of 1.1 there are the point and four neighbours.
+    const auto near = spread(10, 1.1f);
+    for (const std::size_t i : {34u, 43u, 44u, 45u, 54u})
+        CHECK(near[i].x == doctest::Approx(3));
+    CHECK(near[33].x == 1);
+    // A sixth and less is no exception, and alone there is nobody to share with.
+    CHECK(spread(0.19f, 100)[44].x == doctest::Approx(1.19f));
+    CHECK(spread(0.21f, 100)[44].x < 1.01f);
+    CHECK(spread(10, 0.5f)[44].x == 11);
+}
+
 namespace {
 
 using Hall = Scene<Shapes<Sphere, Quad>, Materials<Lambertian, Mirror, Glass, Glossy>>;
@@ -185,6 +233,15 @@ TEST_CASE("irradiance cache: points where a camera ray meets something matt") {
     CHECK(floor.records[0].normal == up);
     CHECK(floor.records[0].irradiance.x == doctest::Approx(1).epsilon(0.02));
     CHECK(floor.counts.bounce_rays == 7);
+    // Half of the rays find a darker ceiling: the brightest of 16 does not.
+    Hall two = hall();
+    two.add(Quad{.corner{-40, -40, 2}, .edge_u{0, 80, 0}, .edge_v{40, 0, 0}},
+            two.add(Lambertian{.albedo = Rgb{0.1f}}));
+    for (int i = 0; i < 8; ++i) {
+        const Ray ray{.origin{0, float(i), 1}, .direction{0, 0, -1}};
+        const auto row = gathered(World(two), ray, {.rays = 16});
+        CHECK(row.records[0].brightest.x == doctest::Approx(1.0 / 16).epsilon(0.001));
+    }
     // By mirrors that are bright enough, and no farther than the depth.
     for (const float bright : {1.0f, 0.02f, 0.005f}) {
         Hall scene = hall();

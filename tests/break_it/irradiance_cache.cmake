@@ -74,3 +74,17 @@ ljus_break_it(NAME irradiance-cache-once HEADER render/irradiance_cache.hpp
     FROM "(settings.rays + 3) / 4"
     TO   "settings.rays"
     CASES "irradiance cache: what is known*")
+
+# What one ray has found is added to the neighbours, but stays at the point as well.
+ljus_break_it(NAME irradiance-cache-spread HEADER render/irradiance_cache.hpp
+    TEST irradiance_cache
+    FROM "record.irradiance -= record.brightest;"
+    TO   ""
+    CASES "irradiance cache: what one ray*")
+
+# The last ray that has found any light counts as the brightest.
+ljus_break_it(NAME irradiance-cache-brightest HEADER render/final_gathering.hpp
+    TEST irradiance_cache
+    FROM "if (max_component(found.radiance) > max_component(gathered.brightest))"
+    TO   "if (max_component(found.radiance) > 0)"
+    CASES "irradiance cache: points where*")

@@ -199,6 +199,7 @@ struct GatheredT {
     /// Distance to the k-th nearest point of the cache with a similar normal, where k
     /// is GatherSettings::nearest. The point itself is the first.
     T spacing = T(0);
+    RgbT<T> brightest{T(0)}; ///< The brightest ray's part of the irradiance, in W/m^2.
 };
 
 /// Gathers the indirect irradiance at a vertex, by stratified rays. On a Lambertian
@@ -219,7 +220,7 @@ struct GatheredT {
 /// \param material  Its material.
 /// \param settings  The number of rays, and their depth.
 /// \param context   The random stream of this vertex; counts the rays.
-/// \return Irradiance, normal and harmonic mean distance.
+/// \return All but the spacing.
 template <AnyWorld W, std::floating_point T, Material M, typename Context>
 [[nodiscard]] GatheredT<T>
 gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& lookup,
@@ -261,14 +262,16 @@ gather_irradiance(const W& world, const std::type_identity_t<GatherLookupT<T>>& 
         auto own = context_of(numbers, context.counts);
         const auto found = gather_ray(world, lookup, path, settings.max_depth, own);
         gathered.irradiance += found.radiance;
+        if (max_component(found.radiance) > max_component(gathered.brightest))
+            gathered.brightest = found.radiance;
         inverse += T(1) / found.distance;
     }
-    if constexpr (lambertian)
-        gathered.irradiance *= std::numbers::pi_v<T> / T(settings.rays);
-    else
-        for (int c = 0; c < 3; ++c)
-            gathered.irradiance[c] *=
-                weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);
+    if constexpr (lambertian) weights = RgbT<T>{T(settings.rays)};
+    for (int c = 0; c < 3; ++c) {
+        const T scale = weights[c] > T(0) ? std::numbers::pi_v<T> / weights[c] : T(0);
+        gathered.irradiance[c] *= scale;
+        gathered.brightest[c] *= scale;
+    }
     gathered.distance = T(settings.rays) / inverse;
     return gathered;
 }
