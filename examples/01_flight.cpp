@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
             line.parse({.draft{.width = 160, .height = 90, .samples = 4},
                         .report{.width = 480, .height = 270, .samples = 36},
                         .reference{.width = 1280, .height = 720, .samples = 256}});
-        if (frames == 0) frames = options.pick(8, 24, 240);
+        if (frames == 0) frames = options.pick(8, 8, 240);
         if (photons == 0) photons = options.pick(20000LL, 200000LL, 2000000LL);
         const PhotonMappingSettings settings{
             .caustics{

@@ -21,6 +21,7 @@
 #include "ljus/scene/world.hpp"
 #include "support/closed_forms.hpp"
 #include "support/numbers.hpp"
+#include "support/refusal.hpp"
 #include "support/seed.hpp"
 #include "support/statistics.hpp"
 
@@ -387,6 +388,9 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
         CAPTURE(outer);
         CHECK_THROWS_AS(spot(inner, outer), std::invalid_argument);
     }
+    CHECK(ljus_test::refusal([&] { spot(40, 30); }) ==
+          "spot light.inner_degrees is 40; it must be within [0, outer_degrees], and "
+          "outer_degrees is 30.");
     for (int axis = 0; axis < 3; ++axis)
         for (const float length : {1e-30f, -1.0f, 3e38f}) {
             Vec3 way{0}, unit{0};

@@ -139,7 +139,7 @@ TEST_CASE("survey: each pass is on or off for a reason that is printed") {
     CHECK(plan.indirect_rays.on);
     CHECK(plan.caustics_map.on);
     CHECK(plan.caustics_map.why ==
-          "1 of 8 objects mirror or refract; radius 0.1 in a scene 2 across");
+          "1 of 8 objects mirrors or refracts; radius 0.1 in a scene 2 across");
     CHECK_FALSE(plan.general_map.on);
     CHECK(plan.general_map.why == "no ray uses it");
     CHECK_FALSE(plan.shadow_photons.on);
@@ -572,7 +572,7 @@ TEST_CASE("survey: narrow gloss is a mirror to those who look irradiance up") {
             const Plan plan = survey(world, settings);
             CHECK(plan.caustics_map.on == mirror);
             CHECK(plan.caustics_map.why ==
-                  (mirror ? "1 of 2 objects are nearly mirrors, whose light is blurred "
+                  (mirror ? "1 of 2 objects is nearly a mirror, whose light is blurred "
                             "as a caustic; radius 0.1 in a scene 18 across"
                           : "no object mirrors or refracts"));
             CHECK(plan.remarks.empty());
@@ -594,8 +594,12 @@ TEST_CASE("survey: narrow gloss is a mirror to those who look irradiance up") {
               {.objects = 5, .diffuse = 4, .specular = 2, .narrow = 1, .lights = 1},
               gather)
               .caustics_map.why ==
-          "2 of 5 objects mirror or refract; 1 of 5 objects are "
-          "nearly mirrors, whose light is blurred as a caustic");
+          "2 of 5 objects mirror or refract; 1 of 5 objects is "
+          "nearly a mirror, whose light is blurred as a caustic");
+    const Plan one = detail::make_plan({.objects = 2, .diffuse = 1, .lights = 1}, {});
+    CHECK(one.indirect_rays.why == "1 of 2 objects lights others");
+    CHECK(one.shadow_rays.why ==
+          "1 of 2 objects reflects diffusely, lit by 1 light(s)");
 }
 
 TEST_CASE("survey: which passes each way of indirect light needs, and from how many") {

@@ -38,6 +38,25 @@ using ljus_test::Mean;
 using ljus_test::mean_radiance;
 using ljus_test::refusal;
 
+namespace user {
+
+/// A ball of fog with the functions that the concept Medium requires, and no others.
+struct Smoke {
+    using Scalar = float;
+    Fog<Sphere> fog;
+    friend void check(const Smoke& s) { check(s.fog); }
+    friend Box bounds(const Smoke& s) { return bounds(s.fog); }
+    friend auto span_in(const Smoke& s, const Ray& ray) { return span_in(s.fog, ray); }
+    friend Rgb extinction(const Smoke& s) { return extinction(s.fog); }
+    friend Rgb scattering(const Smoke& s) { return scattering(s.fog); }
+    friend float phase(const Smoke& s, float cosine) { return phase(s.fog, cosine); }
+    friend Vec3 sample_phase(const Smoke& s, const Vec3& travel, const Vec2& u) {
+        return sample_phase(s.fog, travel, u);
+    }
+};
+
+} // namespace user
+
 namespace {
 
 using Place = Scene<Shapes<Quad, Sphere>, Materials<Lambertian, Glass, Mirror>,
@@ -178,6 +197,29 @@ TEST_CASE("volume_photons: along its border fog is as bright as within, and dark
         CAPTURE(is.medium);
         CHECK(std::abs(seen(is.x, is.y, is.medium) - density * is.length) <=
               0.05 * density * is.length);
+    }
+}
+
+TEST_CASE("volume_photons: a medium without each_image() shows each photon once") {
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<>,
+          Media<user::Smoke, Fog<Sphere>>>
+        scene;
+    scene.add(Sphere{.center{0, 0, 50}, .radius = 1}, scene.add(Lambertian{}));
+    const Fog<Sphere> fog{.region{.radius = 2}, .scattering = Rgb{1e-7f}};
+    scene.add(user::Smoke{fog});
+    scene.add(fog);
+    const World world(std::move(scene));
+    for (const std::uint32_t medium : {0u, 1u}) { // the photon's image is at x = 2.05
+        const VolumePhoton photon{.position{1.95f, 0, 0},
+                                  .direction{0, 0, 1},
+                                  .flux = Rgb{1},
+                                  .radius = 0.5f,
+                                  .medium = medium};
+        const Ray ray{.origin{1.9f, 0, -3}, .direction{0, 0, 1}};
+        const double seen = double(light_of_photon(world, photon, ray, Kernel::box).x);
+        const double once = 1 / (std::numbers::pi * std::numbers::pi);
+        CAPTURE(medium);
+        CHECK(seen == doctest::Approx(medium == 0 ? once : 2 * once).epsilon(1e-4));
     }
 }
 

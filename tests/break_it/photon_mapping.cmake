@@ -180,3 +180,24 @@ ljus_break_it(NAME photon-mapping-tilted HEADER inspect/scene_remarks.hpp
     FROM "std::abs(glm::dot(way, point.normal)) < height"
     TO   "std::abs(glm::dot(way, photon.normal)) < height"
     CASES "photon mapping: what the edges*")
+
+# After gloss, roulette ends all but the brightest paths, and makes these bright.
+ljus_break_it(NAME photon-mapping-gloss-roulette HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "sharing > 0 ? T(detail::gloss_threshold) : T(1)"
+    TO   "T(1)"
+    CASES "photon mapping: after dark gloss*")
+
+# Gloss sends all shadow rays, though the path's next ray finds the lamps as well.
+ljus_break_it(NAME photon-mapping-gloss-shadow-rays HEADER render/photon_mapping.hpp
+    TEST photon_mapping_steps
+    FROM "if (path.met_diffuse || how.next != Lobes::none) how.rays = 1;"
+    TO   "if (path.met_diffuse) how.rays = 1;"
+    CASES "photon mapping: after dark gloss*")
+
+# A path ends at gloss also where the general map lacks the light of mirrors.
+ljus_break_it(NAME photon-mapping-gloss-ends HEADER render/gathering.hpp
+    TEST photon_mapping_steps
+    FROM "!mapper.passes().gloss_as_mirrors && !scatters_through(material) &&"
+    TO   "!scatters_through(material) &&"
+    CASES "photon mapping: behind a glossy*")

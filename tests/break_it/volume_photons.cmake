@@ -33,6 +33,13 @@ ljus_break_it(NAME volume-photons-border HEADER media/fog.hpp
     TO   "image[axis] += 2 * shift;"
     CASES "volume_photons: along its border*")
 
+# In a sphere the mirror image stands on the border.
+ljus_break_it(NAME volume-photons-border-sphere HEADER media/fog.hpp
+    TEST volume_photons
+    FROM "(2 * sphere.radius / distance - 1) * off"
+    TO   "(sphere.radius / distance) * off"
+    CASES "volume_photons: along its border*")
+
 # The photon counts among its neighbours.
 ljus_break_it(NAME volume-photons-itself HEADER photons/volume_photons.hpp
     TEST volume_photons

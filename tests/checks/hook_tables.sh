@@ -21,7 +21,7 @@ of_a_stream="next_1d next_2d next_3d start_bounce"
 of_a_light="emission_point pdf_emission power sample_arrival sample_emission
     sample_light"
 # Functions that the concept requires of every medium.
-of_a_medium="bounds each_image extinction phase sample_phase scattering span_in"
+of_a_medium="bounds extinction phase sample_phase scattering span_in"
 
 # rows FOLDER TABLE: the names in a table of hooks.
 rows() {

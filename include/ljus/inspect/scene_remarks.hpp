@@ -573,8 +573,8 @@ template <typename Mapper>
         mapped > 0 && mapper.passes().general_map)
         lines += detail::join(
             {to_text(mapped),
-             " object(s) have normal maps, between which photons lose light: by about "
-             "10 % where normals lean by 30 degrees; let rays carry indirect light\n"});
+             " object(s) have normal maps, between which photons lose light, the more "
+             "the normals lean; let rays carry indirect light\n"});
     // With gloss_as_mirrors, estimates are divided by part_of_caustics().
     if (mapper.passes().caustics_map && settings.caustics_estimate.nearest == 0 &&
         !mapper.passes().gloss_as_mirrors)

@@ -100,23 +100,26 @@ caustics_clause(const PhotonMappingSettings& settings) {
                                               const PhotonMappingSettings& settings);
 
 #ifndef LJUS_CORE // otherwise defined in ljus::core
-// A text such as "3 of 7 objects mirror or refract".
-inline std::string of_all(const SceneNeeds& found, std::size_t count,
-                          const char* what) {
+// A text such as "3 of 7 objects mirror or refract", with the verbs for one object and
+// for several.
+inline std::string of_all(const SceneNeeds& found, std::size_t count, const char* one,
+                          const char* several) {
     return std::to_string(count) + " of " + std::to_string(found.objects) +
-           " objects " + what;
+           " objects " + (count == 1 ? one : several);
 }
 
 inline void plan_rays(Plan& plan, const Passes& run, const SceneNeeds& found,
                       const PhotonMappingSettings& settings) {
-    plan.shadow_rays = {
-        "shadow rays", run.shadow_rays,
-        found.lights == 0 ? "the scene has no light"
-                          : of_all(found, found.diffuse, "reflect diffusely, lit by ") +
-                                std::to_string(found.lights) + " light(s)"};
+    plan.shadow_rays = {"shadow rays", run.shadow_rays,
+                        found.lights == 0
+                            ? "the scene has no light"
+                            : of_all(found, found.diffuse, "reflects", "reflect") +
+                                  " diffusely, lit by " + std::to_string(found.lights) +
+                                  " light(s)"};
     plan.indirect_rays = {
         "indirect rays", run.indirect_rays,
-        run.indirect_rays         ? of_all(found, found.diffuse, "light each other")
+        run.indirect_rays
+            ? of_all(found, found.diffuse, "lights others", "light each other")
         : settings.max_depth <= 1 ? "the depth ends at the first surface"
         : run.shadow_rays         ? "not asked for"
                                   : "nothing is lit"};
@@ -127,11 +130,13 @@ inline void plan_photons(Plan& plan, const Passes& run, const SceneNeeds& found,
     const auto casters = [&] {
         std::string text;
         if (found.specular > 0 || !run.gloss_as_mirrors)
-            text = of_all(found, found.specular, "mirror or refract");
+            text = of_all(found, found.specular, "mirrors or refracts",
+                          "mirror or refract");
         if (found.specular > 0 && run.gloss_as_mirrors) text += "; ";
         if (run.gloss_as_mirrors)
-            text += of_all(found, found.narrow,
-                           "are nearly mirrors, whose light is blurred as a caustic");
+            text += of_all(found, found.narrow, "is nearly a mirror",
+                           "are nearly mirrors") +
+                    ", whose light is blurred as a caustic";
         return text;
     };
     plan.caustics_map = {"caustics map", run.caustics_map,

@@ -230,12 +230,8 @@ template <std::floating_point T = float>
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +
                     " bytes more than its pixels require");
-    // From the CIE's X, Y and Z to the primaries of RGBE, with the white (1/3, 1/3).
     if (xyze)
-        primaries =
-            glm::dmat3{2.56531284,  -1.02210817, 0.07472438, -1.16684962, 1.97828662,
-                       -0.25193957, -0.39846323, 0.04382156, 1.17721519} /
-            179.0;
+        primaries = glm::inverse(detail::columns_of(detail::radiance_primaries)) / 179.;
     detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());
     return image;
 }

@@ -51,7 +51,8 @@ void check(const SpotLightT<T>& light) {
             "spot light.outer_degrees", light.outer_degrees, "within [0.001, 180]");
     require(light.inner_degrees >= T(0) && light.inner_degrees <= light.outer_degrees,
             "spot light.inner_degrees", light.inner_degrees,
-            "within [0, outer_degrees]");
+            detail::join({"within [0, outer_degrees], and outer_degrees is ",
+                          to_text(light.outer_degrees)}));
     require_direction("spot light.direction", light.direction);
 }
 

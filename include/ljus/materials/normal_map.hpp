@@ -17,9 +17,8 @@ namespace ljus {
 /// the shadows remain those of the shape.
 ///
 /// Photons between such surfaces lose light where the two normals disagree about a
-/// direction. Indirect light from photons is therefore some 2, 6 and 10 % too dark in a
-/// room whose normals lean by 10, 20 and 30 degrees; IndirectLight::rays has no such
-/// bias.
+/// direction. Indirect light from photons is therefore too dark, and darker the more
+/// the normals lean; IndirectLight::rays has no such bias.
 /// \{
 
 /// A picture of normals, for Textured. Red, green and blue are (1 + n)/2, where n is

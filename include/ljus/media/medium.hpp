@@ -31,8 +31,8 @@ namespace ljus {
 /// | scattering(medium)              | scattering alone, per scene unit              |
 /// | phase(medium, cosine)           | the phase function, per steradian             |
 /// | sample_phase(medium, travel, u) | a direction of travel, with density phase()   |
-/// | each_image(medium, p, reach, f) | nothing; calls f(p), and f(q) with each       |
-/// |                                 | mirror image q of p in a border within reach  |
+///
+/// each_image() is optional, for photons near the border of the medium.
 /// \{
 
 /// An interval of the parameter t of a ray.
@@ -55,8 +55,16 @@ concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
     { scattering(medium) } -> std::same_as<RgbT<typename M::Scalar>>;
     { phase(medium, cosine) } -> std::same_as<typename M::Scalar>;
     { sample_phase(medium, travel, u) } -> std::same_as<Vec3T<typename M::Scalar>>;
-    each_image(medium, travel, cosine, [](const Vec3T<typename M::Scalar>&) {});
 };
+
+/// Calls f with a point of a medium. An overload for a type of medium also calls f with
+/// each mirror image of the point in a border within `reach`, so that the light of
+/// photons near the border stays in the medium. Without one, the medium is up to half
+/// too dark within its photons' radius of the border.
+template <Medium M, std::floating_point T, typename F>
+void each_image(const M&, const Vec3T<T>& point, T /*reach*/, F&& f) {
+    f(point);
+}
 
 /// \}
 

@@ -86,8 +86,8 @@ template <typename Mapper, Material M>
 }
 
 /// The indirect radiance that a surface with a wide glossy lobe reflects to the viewer,
-/// in W/(m^2 sr), estimated from the general map. The disc is small and typically holds
-/// 14 photons: the mean over the paths of a pixel reduces noise, but not blur.
+/// in W/(m^2 sr), estimated from the general map. The disc is small and holds few
+/// photons: the mean over the paths of a pixel reduces noise, but not blur.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> photons_on_gloss(const Mapper& mapper, const VertexT<T>& vertex,
                                        const M& material, Counts& counts) {

@@ -22,24 +22,35 @@ namespace ljus::detail {
 using Primaries = std::array<double, 8>;
 inline constexpr Primaries srgb_primaries{0.64, 0.33, 0.3,    0.6,
                                           0.15, 0.06, 0.3127, 0.329};
+// Those of Radiance, with the white of equal energy, as its reference manual has them
+// (File Formats, the PRIMARIES of a picture).
+inline constexpr Primaries radiance_primaries{0.64, 0.33, 0.29,   0.6,
+                                              0.15, 0.06, 1. / 3, 1. / 3};
 
-// The columns X, Y, Z of red, green and blue that give white together. They are adapted
-// to the white D50 by Bradford's method, as in colour profiles (ICC.1:2022, annex E).
-// Primaries that are X, Y and Z themselves are adapted from the white of sRGB.
-[[nodiscard]] inline glm::dmat3 columns_in_d50(std::span<const double, 8> xy) {
+// The columns X, Y, Z of red, green and blue that give white together, whose luminance
+// is 1.
+[[nodiscard]] inline glm::dmat3 columns_of(std::span<const double, 8> xy) {
     const auto xyz = [&](std::size_t k) {
         return glm::dvec3{xy[2 * k], xy[2 * k + 1], 1 - xy[2 * k] - xy[2 * k + 1]};
     };
+    const glm::dmat3 colors{xyz(0), xyz(1), xyz(2)};
+    const glm::dvec3 scale = glm::inverse(colors) * (xyz(3) / xy[7]);
+    return {colors[0] * scale.x, colors[1] * scale.y, colors[2] * scale.z};
+}
+
+// The same, adapted to the white D50 by Bradford's method, as in colour profiles
+// (ICC.1:2022, annex E). Primaries that are X, Y and Z themselves are adapted from the
+// white of sRGB.
+[[nodiscard]] inline glm::dmat3 columns_in_d50(std::span<const double, 8> xy) {
     const glm::dmat3 bradford{0.8951,  -0.7502, 0.0389, 0.2664, 1.7135,
                               -0.0685, -0.1614, 0.0367, 1.0296};
-    const glm::dvec3 white = xyz(3) / xy[7], d50{0.9642, 1.0, 0.8249};
+    const glm::dmat3 columns = columns_of(xy);
+    const glm::dvec3 white = columns * glm::dvec3{1}, d50{0.9642, 1.0, 0.8249};
     const glm::dvec3 d65{0.95046, 1.0, 1.08906};
     const bool is_xyz = xy[0] == 1 && xy[3] == 1;
     const glm::dvec3 gain = bradford * d50 / (bradford * (is_xyz ? d65 : white));
-    const glm::dvec3 scale = glm::inverse(glm::dmat3{xyz(0), xyz(1), xyz(2)}) * white;
     const auto column = [&](int k) {
-        const glm::dvec3 color = xyz(std::size_t(k)) * scale[k];
-        return glm::inverse(bradford) * (gain * (bradford * color));
+        return glm::inverse(bradford) * (gain * (bradford * columns[k]));
     };
     return {column(0), column(1), column(2)};
 }
