@@ -148,8 +148,8 @@ void compare_with_irradiance(const TestWorld& world, double flux,
 struct AimedFlux {
     std::vector<ObjectId> targets;
     std::vector<std::array<Mean, 3>> means; ///< One a target and channel.
-    long long kept = 0;                     ///< Photons that met their target first.
-    long long behind = 0;                   ///< Photons that the lamp could not send.
+    long long kept = 0;   ///< Photons that met a target of theirs first.
+    long long behind = 0; ///< Photons that the lamp could not send.
 };
 AimedFlux aim_at_all(const TestWorld& world, long long photons,
                      std::uint64_t seed = 1) {
@@ -159,20 +159,20 @@ AimedFlux aim_at_all(const TestWorld& world, long long photons,
     for (long long i = 0; i < photons; ++i) {
         RandomStream stream = stream_of(i, seed);
         const auto aimed = aim(world, choice, result.targets, stream);
-        bool keep = false;
+        std::optional<ObjectId> met;
         if (!aimed) {
             ++result.behind;
-        } else {
-            const auto hit = closest_hit(world, aimed->photon.ray);
-            keep = hit && hit->object == aimed->target;
+        } else if (const auto hit = closest_hit(world, aimed->photon.ray)) {
+            const auto& others = aimed->others;
+            if (hit->object == aimed->target ||
+                std::find(others.begin(), others.end(), hit->object) != others.end())
+                met = hit->object;
         }
-        if (keep) ++result.kept;
+        if (met) ++result.kept;
         for (std::size_t j = 0; j < result.targets.size(); ++j)
             for (int c = 0; c < 3; ++c)
-                result.means[j][std::size_t(c)].add(keep && result.targets[j] ==
-                                                                aimed->target
-                                                        ? double(aimed->photon.flux[c])
-                                                        : 0.0);
+                result.means[j][std::size_t(c)].add(
+                    met == result.targets[j] ? double(aimed->photon.flux[c]) : 0.0);
     }
     return result;
 }
@@ -841,16 +841,30 @@ TEST_CASE(
 TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
     // Targets that hide each other; a photon's light is a lamp, a ball or a point, one of
     // them near a target; a spot that is wide, narrower than its targets, or within the
-    // ball; or a sun. 15 comparisons.
-    enum Kind { lamps, wide, narrow, within, sun };
-    for (const Kind kind : {lamps, wide, narrow, within, sun}) {
+    // ball; a sun; or a lamp above a large floor, near two large walls. 18 comparisons.
+    enum Kind { lamps, wide, narrow, within, sun, walls };
+    for (const Kind kind : {lamps, wide, narrow, within, sun, walls}) {
         Stage stage;
-        stage.scene.add(Sphere{.center{0, 0, 0.5f}, .radius = 0.5f}, stage.glass);
-        stage.scene.add(Sphere{.center{0.9f, 0, 1.5f}, .radius = 0.6f}, stage.mirror);
-        stage.scene.add(
-            Quad{.corner{-1, -1, -0.5f}, .edge_u{2, 0, 0}, .edge_v{0, 2, 0}},
-            stage.mirror);
-        if (kind == lamps) {
+        const float size = kind == walls ? 3.0f : 1.0f;
+        if (kind == walls) {
+            for (const Vec3 along : {Vec3{-6, 0, 0}, Vec3{0, -6, 0}})
+                stage.scene.add(
+                    Quad{.corner{3, 3, -0.5f}, .edge_u = along, .edge_v{0, 0, 6}},
+                    stage.mirror);
+        } else {
+            stage.scene.add(Sphere{.center{0, 0, 0.5f}, .radius = 0.5f}, stage.glass);
+            stage.scene.add(Sphere{.center{0.9f, 0, 1.5f}, .radius = 0.6f},
+                            stage.mirror);
+        }
+        stage.scene.add(Quad{.corner{-size, -size, -0.5f},
+                             .edge_u{2 * size, 0, 0},
+                             .edge_v{0, 2 * size, 0}},
+                        stage.mirror);
+        if (kind == walls) {
+            stage.scene.add(
+                Quad{.corner{-1, -1, 2}, .edge_u{0, 1, 0}, .edge_v{1, 0, 0}},
+                stage.matt, Rgb{1});
+        } else if (kind == lamps) {
             stage.scene.add(lamp, stage.matt, Rgb{1});
             stage.scene.add(Sphere{.center{2, 0, 1.5f}, .radius = 0.4f}, stage.matt,
                             Rgb{2});
@@ -869,6 +883,9 @@ TEST_CASE("emission: aimed photons bring what photons sent everywhere bring") {
         const AimedFlux aimed = aim_at_all(world, photons);
         const auto everywhere = emit_to(world, aimed.targets, photons);
         REQUIRE(aimed.targets.size() == 3);
+        // The lamp lies in the bounding spheres of the floor and both walls. Its photons
+        // count wherever they land, and not only if they land on one of the three.
+        if (kind == walls) CHECK(aimed.kept > photons / 2);
         for (std::size_t i = 0; i < 3; ++i) {
             CAPTURE(int(kind));
             CAPTURE(i);

@@ -689,6 +689,12 @@ TEST_CASE("final gathering: what a material reflects of an irradiance") {
                                 stream) == seen);
         CHECK(detail::reflected(Lambertian{.albedo = albedo}, -wo, above,
                                 Lobes::diffuse, stream) == Rgb{0});
+        const auto looked_up = [](const Vec3&) {
+            FAIL("a black lamp needs no lookup");
+            return Rgb{1};
+        };
+        CHECK(detail::reflected(Lambertian{.albedo = Rgb{0}}, wo, looked_up,
+                                Lobes::diffuse, stream) == Rgb{0});
     }
     // The normal on the side that is seen.
     Vertex vertex;
@@ -918,6 +924,34 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
         const Vec3 place = points.tree.point(0) - Vec3{far, 0, 0};
         CHECK(irradiance_at(points, place, Vec3{0, 0, 1}).has_value() == (far < 0.2f));
     }
+    // No gather ray looks up irradiance on gloss. Where a part of the photons lies there,
+    // no points are made of them, and lookups reach farther for the others.
+    const auto half_gloss = [&](float gloss_from) {
+        Chamber floor;
+        const auto matt = floor.add(Lambertian{});
+        const auto gloss = floor.add(Glossy{.roughness = 0.6f});
+        floor.add(
+            Quad{.corner{-9, -9, 0}, .edge_u{9 + gloss_from, 0, 0}, .edge_v{0, 18, 0}},
+            matt);
+        floor.add(Quad{.corner{gloss_from, -9, 0}, .edge_u{9, 0, 0}, .edge_v{0, 18, 0}},
+                  gloss);
+        floor.add(PointLight{.position{0, 0, 2}});
+        return make_irradiance_points(World(std::move(floor)), make_photon_map(photons),
+                                      PhotonMap{}, {.nearest = 100}, 1, 1);
+    };
+    const auto whole = half_gloss(5), part = half_gloss(0.045f);
+    REQUIRE(whole.records.size() == 67);
+    std::size_t on_matt = 0;
+    for (std::size_t i = 0; i < 67; ++i) on_matt += whole.tree.point(i).x < 0.045f;
+    REQUIRE(part.records.size() == on_matt);
+    REQUIRE(on_matt < 30);
+    for (std::size_t i = 0; i < on_matt; ++i) {
+        CHECK(part.tree.point(i).x < 0.045f);
+        CHECK(part.records[i].irradiance.x > 0);
+    }
+    CHECK(part.radius ==
+          doctest::Approx(whole.radius * std::sqrt(67.0 / double(on_matt))));
+    CHECK(half_gloss(-1).records.empty());
     const IrradiancePointSettings settings; // if nothing is said
     CHECK(settings.every == 6);
     CHECK(settings.nearest == 32);

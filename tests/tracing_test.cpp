@@ -1080,7 +1080,7 @@ TEST_CASE("tracing: each path has the numbers of its seed, map, repetition and p
                 } else {
                     const auto aimed = aim(room, choice, targets, stream);
                     if (!aimed) continue;
-                    sent = {aimed->photon, aimed->target};
+                    sent = {aimed->photon, aimed->target, aimed->others};
                 }
                 sent.photon.flux /= 40.0f;
                 detail::trace_photon(room, map, sent, pass, stream, block);

@@ -48,6 +48,12 @@ ljus_break_it(NAME aim-inside HEADER lights/area_light.hpp TEST emission
     TO   "return {point.normal, T(0.5)};"
     CASES "emission: a lamp within*")
 
+# Each wall around a lamp is a target of its own, and photons count for all of them.
+ljus_break_it(NAME aim-walls HEADER photons/aiming.hpp TEST emission
+    FROM "if (at.at_all && !at_all.empty()) at.size = T(0);"
+    TO   ""
+    CASES "emission: aimed photons bring*")
+
 # A target takes the place of the one before with its share, but u is not stretched: the
 # first ones are chosen too often, and the others never.
 ljus_break_it(NAME aim-stretch HEADER photons/aiming.hpp TEST emission

@@ -244,6 +244,13 @@ ljus_break_it(NAME final-gathering-wall HEADER photons/irradiance_points.hpp
     TO   "return height * height > 4 * radius2;"
     CASES "final gathering: a strong lamp*")
 
+# Points are made on gloss, too, where no ray looks them up.
+ljus_break_it(NAME final-gathering-gloss HEADER photons/irradiance_points.hpp
+    TEST final_gathering
+    FROM "if (glossy[i]) continue;"
+    TO   ""
+    CASES "final gathering: direct photons are*")
+
 # Where gather rays end, what moves stays where it was.
 ljus_break_it(NAME final-gathering-moving HEADER photons/irradiance_points.hpp TEST moving
     FROM "if (has_moving(world))"

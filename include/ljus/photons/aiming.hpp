@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ljus/lights/point_light.hpp"
@@ -42,6 +43,9 @@ template <std::floating_point T>
 struct AimedPhotonT {
     EmittedPhotonT<T> photon; ///< The photon.
     ObjectId target;          ///< The photon counts only if it hits this object first.
+    /// If the photon is aimed at the whole cone of emission, all objects that fill this
+    /// cone. The photon also counts if it hits one of these first.
+    std::vector<ObjectId> others{};
 };
 
 /// Aims a photon of a point light at a ball: the plain counterpart of aim(). The light
@@ -77,6 +81,7 @@ struct AimT {
     /// Weight of the object when a target is chosen: approximately the solid angle that
     /// the object covers, divided by 2 pi.
     T size = T(0);
+    bool at_all = false; ///< Whether the point aims at the light's cone of emission.
 };
 
 /// Chooses how a point of a light aims at an object: at the cone of directions to the
@@ -92,10 +97,9 @@ template <AnyWorld W, std::floating_point T>
     return world.visit_shape(target, [&]<typename G>(const G& shape) {
         const SphereT<T> bound = bounding_sphere(shape);
         const ConeT<T> cone = cone_towards(bound, from);
-        if (emission.one_minus_cos < cone.one_minus_cos)
-            return AimT<T>{emission, false, emission.one_minus_cos};
-        if (cone.one_minus_cos == T(2) || !FlatShape<G>)
-            return AimT<T>{cone, false, cone.one_minus_cos};
+        if (emission.one_minus_cos <= cone.one_minus_cos)
+            return AimT<T>{emission, false, emission.one_minus_cos, true};
+        if (!FlatShape<G>) return AimT<T>{cone, false, cone.one_minus_cos};
         const Vec3T<T> way = bound.center - from;
         T size = T(0);
         if constexpr (HasArea<G>)
@@ -150,6 +154,7 @@ struct AimedDirectionT {
     /// Density of the direction per steradian, times the probability of the target.
     T pdf = T(0);
     ObjectId target{};
+    std::vector<ObjectId> others{}; ///< As in AimedPhotonT.
 };
 
 /// The random numbers of an aimed photon, in the order in which aim() draws them.
@@ -192,18 +197,27 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 }
 
 /// Samples a direction from a point of a near light to one of the targets: uniformly in
-/// a cone, or uniformly over the area of a flat object; see aim_at().
+/// a cone, or uniformly over the area of a flat object; see aim_at(). Targets for which
+/// that cone is the cone of emission, such as the walls around a lamp, are chosen as if
+/// they were one object.
 /// \return Nothing if the bounding spheres of all targets have the radius 0, or if the
 ///         chosen target is flat and `from` lies in its plane.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<AimedDirectionT<T>>
 sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
            std::span<const ObjectId> targets, const AimNumbersT<T>& u) {
-    const auto aim_of = [&](ObjectId id) { return aim_at(world, emission, from, id); };
+    std::vector<ObjectId> at_all;
+    const auto aim_of = [&](ObjectId id) {
+        AimT<T> at = aim_at(world, emission, from, id);
+        if (at.at_all && !at_all.empty()) at.size = T(0);
+        if (at.at_all) at_all.push_back(id);
+        return at;
+    };
     const auto chosen = choose_target<AimT<T>>(targets, aim_of, u.u_target);
     if (!chosen) return std::nullopt;
     const AimT<T>& at = chosen->at;
     AimedDirectionT<T> aimed{.target = chosen->target};
+    if (at.at_all) aimed.others = std::move(at_all);
     if (at.at_area) {
         const auto seen =
             world.visit_shape(chosen->target, [&]<typename G>(const G& shape) {
@@ -233,16 +247,17 @@ template <AnyWorld W, NearLight L, std::floating_point T>
 aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
            const AimNumbersT<T>& u) {
     const auto point = emission_point(light, u.u_point, u.time);
-    const auto aimed = sample_aim(world, cone_of_emission(light, point),
-                                  position_of(point), targets, u);
+    auto aimed = sample_aim(world, cone_of_emission(light, point), position_of(point),
+                            targets, u);
     if (!aimed) return std::nullopt;
-    const auto& [direction, pdf, target] = *aimed;
+    auto& [direction, pdf, target, others] = *aimed;
     const T emitted = pdf_emission(light, point, direction);
     if (!(emitted > T(0))) return std::nullopt;
     return AimedPhotonT<T>{
         {.ray = leave(point, direction),
          .flux = flux_leaving(light, point) * (emitted / (pdf * u.probability))},
-        target};
+        target,
+        std::move(others)};
 }
 
 } // namespace detail
@@ -255,7 +270,8 @@ aim_photon(const W& world, const L& light, std::span<const ObjectId> targets,
 ///
 /// The flux is multiplied by the density with which the light emits in the direction,
 /// and divided by the density with which this function samples the direction. Because
-/// cones may overlap, the caller must drop a photon that hits another object first.
+/// cones may overlap, the caller must drop a photon that hits another object first. If
+/// several objects fill the cone of emission, they are a single target.
 /// \param world    The closed scene.
 /// \param choice   The distribution of the lights, at least one.
 /// \param targets  The objects, at least one.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -198,6 +199,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 
 /// Precomputes the irradiance at every n-th photon of the general map: direct light by
 /// shadow rays, indirect light from the general map, and caustics from their map.
+/// Photons on materials with a glossy lobe are left out, because gather_ray() looks up
+/// no irradiance there.
 /// \param world     The closed scene.
 /// \param general   The general map.
 /// \param caustics  The caustics map; may be empty.
@@ -221,6 +224,7 @@ template <AnyWorld W, std::floating_point T>
         settings.radius > 0 ? T(settings.radius) : 4 * typical_radius(general, count);
     std::vector<Vec3T<T>> positions(chosen.size());
     std::vector<IrradianceAtT<T>> records(chosen.size());
+    std::vector<std::uint8_t> glossy(chosen.size()); // whether the point is left out
     const auto work_out = [&](std::size_t i) {
         const std::size_t photon = chosen[i];
         const detail::PhotonRecordT<T> record = general.records[photon];
@@ -232,6 +236,10 @@ template <AnyWorld W, std::floating_point T>
         const auto vertex =
             detail::vertex_below(world, positions[i], normal, T(1e-3) * radius);
         if (!vertex) return;
+        glossy[i] = visit_material_at(world, *vertex, [](const auto& material) {
+            return has(lobes(material), Lobes::glossy);
+        });
+        if (glossy[i]) return;
         auto stream = random_stream(seed, Pass::irradiance, 0, i);
         Counts counts;
         auto context = context_of(stream, counts);
@@ -239,15 +247,27 @@ template <AnyWorld W, std::floating_point T>
             world, general, caustics, *vertex, settings, radius, context);
     };
     (void)detail::parallel_each(chosen.size(), 64, work_out, {.threads = threads});
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (glossy[i]) continue;
+        positions[kept] = positions[i];
+        records[kept++] = records[i];
+    }
+    positions.resize(kept);
 
     IrradiancePointsT<T> points;
     points.radius = points.disc = radius;
-    // Direct photons are missing in shadows, where points are therefore far apart.
-    if (settings.radius == 0 && detail::has_direct(general))
-        points.radius =
-            typical_radius(general, std::size_t(std::min(2 * settings.every, 511)));
+    // Direct photons are missing in shadows, where points are therefore far apart. The
+    // fewer points are kept, the farther a lookup reaches.
+    if (settings.radius == 0 && detail::has_direct(general)) {
+        const T part = T(std::max<std::size_t>(kept, 1)) / T(chosen.size());
+        points.radius = std::min(
+            radius,
+            typical_radius(general, std::size_t(std::min(2 * settings.every, 511))) /
+                std::sqrt(part));
+    }
     points.tree = KdTree8T<T>(positions, threads);
-    points.records.reserve(chosen.size());
+    points.records.reserve(kept);
     for (const std::uint32_t i : points.tree.point_ids())
         points.records.push_back(records[i]);
     return points;

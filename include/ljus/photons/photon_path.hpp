@@ -335,8 +335,10 @@ template <AnyWorld W, std::floating_point T, StreamLike Stream>
 template <std::floating_point T>
 struct SentPhotonT {
     EmittedPhotonT<T> photon{}; ///< The photon as it leaves its light.
-    /// The target, if any. A photon that hits another object first is dropped.
+    /// The target, if any. A photon that first hits another object is dropped, unless
+    /// that object is one of `others`.
     std::optional<ObjectId> target{};
+    std::vector<ObjectId> others{};
 };
 
 /// Traces a photon and stores it at each surface with a non-specular lobe.
@@ -381,7 +383,9 @@ void trace_photon(const W& world, MapType map, const SentPhotonT<T>& sent,
             return;
         }
         const bool first = path.depth == 1;
-        if (first && sent.target && vertex->id != *sent.target) {
+        const auto& others = sent.others;
+        if (first && sent.target && vertex->id != *sent.target &&
+            std::find(others.begin(), others.end(), vertex->id) == others.end()) {
             audit.cut += after;
             return;
         }

@@ -35,13 +35,12 @@ void trace_block(const W& world, MapType map, const SceneAimT<T>& aim,
                                        pass.seed, part, pass.iteration, path));
         SentPhotonT<T> sent;
         if (map == MapType::caustics) {
-            const auto aimed =
-                aim_by_share(world, aim.choice, targets, pass.shares, stream);
+            auto aimed = aim_by_share(world, aim.choice, targets, pass.shares, stream);
             if (!aimed) {
                 ++block.unsent;
                 continue;
             }
-            sent = {aimed->photon, aimed->target};
+            sent = {aimed->photon, aimed->target, std::move(aimed->others)};
         } else {
             sent.photon = emit(world, aim.choice, stream, aim);
             if (is_black(sent.photon.flux)) { // the light does not emit there

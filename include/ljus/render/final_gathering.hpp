@@ -29,7 +29,8 @@ namespace detail {
 /// surface the result is exact; the albedo of any other surface is estimated by one
 /// sample.
 /// \param irradiance  Called with a direction in the frame; returns E on the side into
-///                    which the direction points, in W/m^2.
+///                    which the direction points, in W/m^2. Not called for a black
+///                    Lambertian surface, such as most lamps.
 /// \param stream      Three numbers are drawn, or none for a Lambertian surface.
 /// \return W/(m^2 sr).
 // [reflected]
@@ -41,7 +42,8 @@ template <Material M, std::floating_point T, typename Irradiance, typename Strea
         return weight * irradiance(wi) * std::numbers::inv_pi_v<T>;
     };
     if constexpr (std::same_as<M, LambertianT<T>>) {
-        if (!has(which, Lobes::diffuse)) return RgbT<T>{T(0)};
+        if (!has(which, Lobes::diffuse) || is_black(material.albedo))
+            return RgbT<T>{T(0)};
         return radiance(material.albedo, {T(0), T(0), std::copysign(T(1), wo.z)});
     } else {
         const auto scattered =
