@@ -222,7 +222,8 @@ TEST_CASE("flip: HDR: black, infinite and NaN pictures have a number") {
 TEST_CASE("flip: of a large picture, tile by tile, as of all of it at once") {
     // A tile has 512 pixels a side; of 80 pixels a degree 11 around one count.
     constexpr double ppd = 80;
-    for (const auto& [width, height] : {std::pair{1100, 20}, {20, 1100}, {600, 540}}) {
+    for (const glm::ivec2 size : {glm::ivec2{1100, 20}, {20, 1100}, {600, 540}}) {
+        const auto width = size.x, height = size.y;
         CAPTURE(width);
         const ImageD a = picture(width, height, pattern),
                      b = picture(width, height, changed);

@@ -376,17 +376,12 @@ TEST_CASE("light: the ends of what a spot may be, and a direction along each axi
     for (const auto& [inner, outer] :
          {std::pair{0.0f, 180.0f}, {180, 180}, {20, 20}, {0.001f, 0.001f}})
         CHECK_NOTHROW(spot(inner, outer));
-    for (const auto& [inner, outer] : {std::pair{0.0f, 180.1f},
-                                       {20.1f, 20},
-                                       {-0.1f, 20},
-                                       {nan, 20},
-                                       {0, 0},
-                                       {0, 1e-30f},
-                                       {0, -1},
-                                       {0, nan}}) {
-        CAPTURE(inner);
-        CAPTURE(outer);
-        CHECK_THROWS_AS(spot(inner, outer), std::invalid_argument);
+    for (const Vec2& ends : {Vec2{0, 180.1f}, Vec2{20.1f, 20}, Vec2{-0.1f, 20},
+                             Vec2{nan, 20}, Vec2{0, 0}, Vec2{0, 1e-30f}, Vec2{0, -1},
+                             Vec2{0, nan}}) {
+        CAPTURE(ends.x);
+        CAPTURE(ends.y);
+        CHECK_THROWS_AS(spot(ends.x, ends.y), std::invalid_argument);
     }
     CHECK(ljus_test::refusal([&] { spot(40, 30); }) ==
           "spot light.inner_degrees is 40; it must be within [0, outer_degrees], and "
