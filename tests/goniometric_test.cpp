@@ -385,8 +385,8 @@ TEST_CASE("goniometric: versions of the format, a tilt table, and all factors") 
     for (const char* const head :
          {"A desk lamp, 1986\r\nTILT=NONE\r\n", "IESNA91\n[TEST] 1\nTILT=NONE\n",
           "IESNA:LM-63-1995\n[MANUFAC] none\n[MORE] TILT\n TILT=NONE\nTILT=NONE\n",
-          "IESNA:LM-63-2002\nTILT=INCLUDE\n1\n3\n0 45, 90\n1, 0.9 0.8\n",
-          "\xef\xbb\xbfIESNA:LM-63-2002\nTILT=NONE \n"}) {
+          "IESNA:LM-63-2002\nTILT=Include\n1\n3\n0 45, 90\n1, 0.9 0.8\n",
+          "\xef\xbb\xbfIESNA:LM-63-2002\nTILT=none \n"}) {
         CAPTURE(head);
         const IesLamp lamp = read(head);
         CHECK(lamp.table.candela == std::vector<double>(8, 12.0));

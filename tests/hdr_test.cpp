@@ -321,13 +321,32 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
          {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
           start + "FORMAT=32-bit_rle_luv\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=-1\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
-          start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 +X 3\n",
+          start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 -X 3\n",
           start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",
           start + "\n-Y 268435456 +X 268435456\n", start + "\n-Y 268435456 +X 1\n",
           start + "\n-Y 1 +X 268435456\n", start + "\n-Y 2 +X 3\n\1\1\1\1"}) {
         CAPTURE(header);
         ScratchFolder::write(path, header + std::string(24, '\x01'));
         CHECK(message_of_load(path) != "loaded");
+    }
+}
+
+TEST_CASE("hdr: rows from the bottom are those from the top, the last one first") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.hdr"), start = "#?RADIANCE\n\n";
+    for (const int height : {1, 2, 3, 4}) {
+        std::string down, up;
+        for (int y = 0; y < height; ++y) {
+            const std::string row{char(60 + y), '\x20',  '\x10', '\x80',
+                                  '\x11',       char(y), '\x50', '\x81'};
+            down += row;
+            up = row + up;
+        }
+        const std::string size = std::to_string(height) + " +X 2\n";
+        ScratchFolder::write(path, start + "-Y " + size + down);
+        const auto pixels = ljus::load_hdr(path).pixels;
+        ScratchFolder::write(path, start + "+Y " + size + up);
+        CHECK(ljus::load_hdr(path).pixels == pixels);
     }
 }
 
@@ -339,10 +358,10 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
         return message_of_load(path);
     };
     const std::string start = "#?RADIANCE\n", row(12, '\x40');
-    const std::string only = "; only -Y +X is supported.";
+    const std::string only = "; only -Y +X and +Y +X are supported.";
     CHECK(message(start + "\n-Y 1 +X 3\n" + row) == "loaded");
     CHECK(message(start + "\n-Y 1 +X\t3 \t\n" + row) == "loaded");
-    CHECK(message(start + "\n+Y 1 +X 3\n" + row) == "its rows go +Y +X" + only);
+    CHECK(message(start + "\n+Y 1 -X 3\n" + row) == "its rows go +Y -X" + only);
     CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
     CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);
     for (const char* const exposure : {"-1", "1e999", "nan"})

@@ -154,8 +154,8 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 
 } // namespace detail
 
-/// Loads a Radiance file in RGBE or XYZE with rows from the top, plain or run-length
-/// coded, by today's coding or by that from before 1991.
+/// Loads a Radiance file in RGBE or XYZE with rows from left to right, plain or
+/// run-length coded, by today's coding or by that from before 1991.
 /// \return The radiance: the pixels divided by the EXPOSURE and COLORCORR of the
 ///         header. Colours of other primaries than those of sRGB are converted, and
 ///         those of XYZE are divided by 179 lm/W. Their channels are then at least 0,
@@ -209,9 +209,10 @@ template <std::floating_point T = float>
     const std::string x_word = reader.word();
     const int height = reader.size(y_size);
     const int width = reader.size(reader.last_word());
-    if (y_word != "-Y" || x_word != "+X")
+    const bool upwards = y_word == "+Y";
+    if ((y_word != "-Y" && !upwards) || x_word != "+X")
         reader.fail("its rows go " + shown(y_word) + " " + shown(x_word) +
-                    "; only -Y +X is supported");
+                    "; only -Y +X and +Y +X are supported");
     reader.require_pixels(width, height);
 
     // The image grows row by row, so that a short file that declares a large size takes
@@ -230,6 +231,9 @@ template <std::floating_point T = float>
     if (reader.left() != 0)
         reader.fail("it has " + std::to_string(reader.left()) +
                     " bytes more than its pixels require");
+    for (auto low = image.pixels.begin(), high = image.pixels.end();
+         upwards && high - low > width; low += width)
+        high = std::swap_ranges(low, low + width, high - width) - width;
     if (xyze)
         primaries = glm::inverse(detail::columns_of(detail::radiance_primaries)) / 179.;
     detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());

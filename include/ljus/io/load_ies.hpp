@@ -220,11 +220,11 @@ struct IesGrid {
         tilt = in.take();
     }
     tilt = detail::Words{tilt.substr(5)}.next();
-    if (tilt == "INCLUDE") {
+    if (detail::same_word(tilt, "INCLUDE")) {
         (void)in.number("the position of the lamp for the tilt", 1, 3);
         const std::size_t angles = in.count("the number of tilt angles", 1, 1000);
         for (std::size_t i = 0; i < 2 * angles; ++i) (void)in.number("a tilt");
-    } else if (tilt != "NONE") {
+    } else if (!detail::same_word(tilt, "NONE")) {
         in.refuse_line(detail::join({"the tilt is '", shown(std::string(tilt)),
                                      "'; it must be NONE or INCLUDE"}));
     }

@@ -69,7 +69,7 @@ template <std::floating_point T>
             for (const PhotonT<T>& photon : part) add(photon);
             freed += part.size();
             std::vector<PhotonT<T>>().swap(part);
-            if (freed < 1 << 18) continue;
+            if (freed < 1 << 16) continue;
             freed = 0;
             give_back_memory();
         }

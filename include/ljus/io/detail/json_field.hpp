@@ -152,9 +152,11 @@ using JsonNames = std::span<const std::string_view>;
 // A member of an object, if it exists.
 [[nodiscard]] inline std::optional<JsonField> find(const JsonField& field,
                                                    std::string_view name) {
-    const auto found = field.value.find(name);
-    if (found == field.value.end()) return std::nullopt;
-    return JsonField{*found, field.file, field.root};
+    // Objects have few members: comparing all is faster than a search in their tree.
+    if (const auto* all = field.value.get_ptr<const nlohmann::json::object_t*>())
+        for (const auto& [known, value] : *all)
+            if (known == name) return JsonField{value, field.file, field.root};
+    return std::nullopt;
 }
 
 // A required member.
