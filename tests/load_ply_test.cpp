@@ -178,6 +178,18 @@ TEST_CASE("load_ply: the colours of vertices are interpolated between them") {
     CHECK(one.pictures.empty());
     CHECK(one.parts.at(0).material.diffuse.x == doctest::Approx(srgb_decode(0.5)));
     CHECK(one.parts[0].material.diffuse.y == 1);
+    // Of all integers but ushort, 255 is the brightest.
+    for (const std::string type : {"uchar", "int", "uint", "short", "ushort"}) {
+        const std::string rgb = type == "ushort" ? " 13107 65535 0\n" : " 51 255 0\n";
+        const auto whole =
+            read(head("property " + type + " red\nproperty " + type +
+                      " green\nproperty " + type + " blue\n") +
+                 "0 0 0" + rgb + "1 0 0" + rgb + "0 1 0" + rgb + "3 0 1 2\n");
+        CAPTURE(type);
+        CHECK(whole.parts.at(0).material.diffuse.x ==
+              doctest::Approx(srgb_decode(0.2)));
+        CHECK(whole.parts[0].material.diffuse.y == 1);
+    }
     // A vertex whose colour is none, and colours that are not asked for.
     const std::string none = head("property float red\nproperty float green\n"
                                   "property float blue\n") +

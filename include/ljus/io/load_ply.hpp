@@ -320,8 +320,8 @@ private:
             const PlyType& type =
                 element.properties[static_cast<std::size_t>(has.color[std::size_t(k)])]
                     .type;
-            if (type.kind == 'u')
-                color[k] /= std::ldexp(1, 8 * static_cast<int>(type.size)) - 1;
+            const bool is_ushort = type.kind == 'u' && type.size == 2;
+            if (type.kind != 'f') color[k] /= is_ushort ? 65535 : 255;
             if (color[k] >= 0 && color[k] <= 1) color[k] = srgb_decode(color[k]);
         }
         mesh_.add_color(color);
@@ -380,9 +380,9 @@ private:
 /// coordinates (u, v; s, t; or texture_u, texture_v) and colours (red, green, blue, or
 /// with diffuse_ before each). Faces may have any number of corners, and a list
 /// texcoord with two texture coordinates per corner. The list of an element tristrips
-/// has strips of triangles; each strip ends with -1. Colours are sRGB, as integers
-/// from 0 to the largest value of their type or as floats from 0 to 1. They become a
-/// picture on a white mesh.
+/// has strips of triangles; each strip ends with -1. Colours are sRGB, as integers from
+/// 0 to 255, as ushort from 0 to 65535, or as floats from 0 to 1. They become a picture
+/// on a white mesh.
 /// \return One mesh without a material, and a report of the problems of the file.
 /// \throws std::runtime_error  with one sentence: "bunny.ply: the file ends within its
 ///         element 8 of 35947, vertex."; or as read_obj().
