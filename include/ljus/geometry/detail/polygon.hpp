@@ -80,11 +80,11 @@ struct CutPolygon {
         if (is_hollow(i)) hollow.push_back(left[i]);
     const auto is_ear = [&](std::size_t i) {
         const auto [a, b, c] = at(i);
-        if (corners[a] == corners[c]) return true; // there and back, without an area
-        if (!(turn(a, b, c) > 0)) return false;
         const auto is = [&](std::uint32_t p, std::uint32_t q) {
             return corners[p] == corners[q];
         };
+        if (is(a, b) || is(b, c) || is(c, a)) return true; // without an area
+        if (!(turn(a, b, c) > 0)) return false;
         // Whether p is between the two edges that meet in b, or on one of them.
         const auto is_between = [&, a = a, b = b, c = c](std::uint32_t p) {
             return is(p, a) || is(p, c) || (turn(a, b, p) > 0 && turn(b, c, p) > 0);
