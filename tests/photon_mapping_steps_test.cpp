@@ -1036,6 +1036,6 @@ TEST_CASE("photon mapping: after dark gloss, roulette makes no path bright") {
     const double once = 0.1 + 0.9 * std::pow(1 - std::sqrt(0.5), 5);
     CHECK(std::abs(mean.mean / (once * once) - 1) <
           0.01 + 4.5 * mean.error() / (once * once));
-    CHECK(brightest < 0.4f); // roulette lets at most a quarter go on
+    CHECK(brightest < 0.4f); // of a survivor's throughput of a quarter
     CHECK(counts.shadow_rays <= 20000 + counts.bounce_rays); // one at each surface
 }

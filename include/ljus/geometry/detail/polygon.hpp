@@ -66,7 +66,7 @@ struct CutPolygon {
     };
     std::vector<std::uint32_t> left(corners.size());
     std::iota(left.begin(), left.end(), 0u);
-    // The corners before, at and after position i of `left`.
+    // The corners before, at and after position i of `left`, which stays in order.
     const auto at = [&](std::size_t i) {
         const std::size_t n = left.size();
         return std::array{left[(i + n - 1) % n], left[i % n], left[(i + 1) % n]};
@@ -91,8 +91,8 @@ struct CutPolygon {
         };
         for (const std::uint32_t p : hollow)
             if (is(p, b)) { // parts of the polygon meet in b, with a gap at p
-                const auto k = std::find(left.begin(), left.end(), p) - left.begin();
-                const auto [before, same, after] = at(std::size_t(k));
+                const auto k = std::lower_bound(left.begin(), left.end(), p);
+                const auto [before, same, after] = at(std::size_t(k - left.begin()));
                 if (is_between(before) && is_between(after)) return false;
             } else if (!is(p, a) && !is(p, c) && turn(a, b, p) >= 0 &&
                        turn(b, c, p) >= 0 && turn(c, a, p) >= 0) {
