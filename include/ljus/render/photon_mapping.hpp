@@ -704,7 +704,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         gather = false;
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
-                        ends = ends_on_gloss(mapper, material);
+                        ends = ends_on_gloss(mapper, *vertex, material);
                     }
                 const bool follow =
                     mirror || (through && settings.indirect == IndirectLight::photons);
