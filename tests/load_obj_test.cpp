@@ -290,10 +290,13 @@ TEST_CASE(
 }
 
 TEST_CASE("load_obj: the parts of a polygon may meet in one of its corners") {
-    // Two triangles on top of each other, a V, and four random parts around a point.
+    // Two triangles on top of each other, a V, one in which corners that coincide become
+    // neighbours, and four random parts around a point.
     std::vector<Corners> polygons{
         {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}},
-        {{0, 0, 0}, {2, 3, 0}, {1, 3, 0}, {0, 0, 0}, {-1, 3, 0}, {-2, 3, 0}}};
+        {{0, 0, 0}, {2, 3, 0}, {1, 3, 0}, {0, 0, 0}, {-1, 3, 0}, {-2, 3, 0}},
+        {{3, 2, 0}, {2, 2, 0}, {2, 3, 0}, {3, 3, 0}, {3, 4, 0}, {5, 4, 0}, {5, 5, 0},
+         {3, 5, 0}, {3, 4, 0}, {1, 4, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {3, 1, 0}}};
     RandomStream stream = random_stream(9, Pass::user, 0, 0);
     for (int round = 0; round < 50; ++round) {
         Corners corners;

@@ -191,6 +191,7 @@ TEST_CASE("volume_photons: along its border fog is as bright as within, and dark
                           Row{0, 0.06f, 1, 0},       // outside
                           Row{0, 1.5f, 0, 2.64575},  // within the sphere
                           Row{0, 1.95f, 0, 0.88882}, // near its rim
+                          Row{0, 1.98f, 0, 0.56427},
                           Row{0, 2.01f, 0, 0}}) {
         CAPTURE(is.x);
         CAPTURE(is.y);

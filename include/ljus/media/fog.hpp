@@ -84,15 +84,18 @@ template <std::floating_point T>
 }
 
 /// Calls f with a point in a sphere and, if the border is within `reach` of the point,
-/// with its mirror image in the border, which lies on the same radius.
+/// with its image in the border. The image lies on the same radius, beyond a shell as
+/// large as that from the point to the border: evenly spread points have such images.
 template <std::floating_point T, typename F>
 void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f) {
     f(point);
     const Vec3T<T> off = point - sphere.center;
     const T distance = glm::length(off);
     const T inside = sphere.radius - distance;
-    if (inside >= T(0) && inside < reach && distance > T(0))
-        f(sphere.center + (2 * sphere.radius / distance - 1) * off);
+    if (inside >= T(0) && inside < reach && distance > T(0)) {
+        const T ratio = sphere.radius / distance;
+        f(sphere.center + std::cbrt(2 * ratio * ratio * ratio - 1) * off);
+    }
 }
 
 /// Calls f with a point in a box and with its mirror images in the sides that are

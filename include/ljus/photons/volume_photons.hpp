@@ -158,6 +158,7 @@ template <std::floating_point T>
 /// The radiance that one photon adds to a ray. The part of its disc that lies outside
 /// the fog is folded back at the border, by mirror images of the photon: without them
 /// the fog would be too dark within a radius of its border, and would glow outside.
+/// Where the radius is larger than the fog is thick, the fog is nevertheless too dark.
 /// \param world   The closed scene.
 /// \param photon  The photon.
 /// \param ray     The ray, which has a unit direction and lies outside all bodies. Its

@@ -75,14 +75,29 @@ template <typename Mapper, std::floating_point T, Material M, typename Context>
                              context.stream);
 }
 
-/// Whether a path that has met a diffuse surface ends at a glossy material, where
+/// The radius of the disc in which photons_on_gloss() finds photons.
+template <typename Mapper>
+[[nodiscard]] auto radius_on_gloss(const Mapper& mapper) noexcept {
+    return mapper.template state<Gathering>().points.disc / 6;
+}
+
+/// Whether a path that has met a diffuse surface ends at a glossy surface, where
 /// photons_on_gloss() finds its indirect light. With nearly_specular() objects in the
 /// scene the path goes on, because the general map lacks the light that they reflect.
-template <typename Mapper, Material M>
-[[nodiscard]] bool ends_on_gloss(const Mapper& mapper, const M& material) noexcept {
-    return mapper.template state<Gathering>().points.disc > 0 &&
-           !mapper.passes().gloss_as_mirrors && !scatters_through(material) &&
-           !has(lobes(material), Lobes::diffuse);
+/// It goes on at curved objects that are smaller than the disc as well.
+template <typename Mapper, std::floating_point T, Material M>
+[[nodiscard]] bool ends_on_gloss(const Mapper& mapper, const VertexT<T>& vertex,
+                                 const M& material) noexcept {
+    if (mapper.passes().gloss_as_mirrors || scatters_through(material) ||
+        has(lobes(material), Lobes::diffuse))
+        return false;
+    const T radius = radius_on_gloss(mapper);
+    return radius > 0 && mapper.world().visit_shape(vertex.id, [&](const auto& shape) {
+        if constexpr (requires { corners_of(shape); })
+            return true; // see part_on_surface()
+        else
+            return bounding_sphere(shape).radius > radius;
+    });
 }
 
 /// The indirect radiance that a surface with a wide glossy lobe reflects to the viewer,
@@ -92,7 +107,7 @@ template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] RgbT<T> photons_on_gloss(const Mapper& mapper, const VertexT<T>& vertex,
                                        const M& material, Counts& counts) {
     ++counts.map_queries;
-    const T radius = mapper.template state<Gathering>().points.disc / 6;
+    const T radius = radius_on_gloss(mapper);
     const VertexT<T>& resting = detail::at_rest(mapper.world(), vertex);
     return estimate_radiance(mapper.maps().general, resting, material, vertex.wo,
                              DensityEstimateSettings{.radius = float(radius)},

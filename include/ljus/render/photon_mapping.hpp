@@ -40,8 +40,8 @@ namespace ljus {
 /// A glossy surface is a D, with one exception. IndirectLight::gather and cache treat a
 /// nearly_specular() surface as an S if it lies between a light and a surface with a
 /// diffuse lobe. Without such surfaces in the scene, a camera path ends at the first
-/// glossy surface after a D: the general map has its indirect light. At all other
-/// glossy surfaces camera paths continue.
+/// glossy surface after a D, see ends_on_gloss(): the general map has its indirect
+/// light. At all other glossy surfaces camera paths continue.
 ///
 /// Photon maps are not queried for the light that rough glass scatters through itself,
 /// see scatters_through(). Paths therefore continue at rough glass, even with
@@ -704,7 +704,7 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         gather = false;
                         mirror = gloss_mirrors &&
                                  nearly_specular_at(mapper.world(), *vertex, material);
-                        ends = ends_on_gloss(mapper, material);
+                        ends = ends_on_gloss(mapper, *vertex, material);
                     }
                 const bool follow =
                     mirror || (through && settings.indirect == IndirectLight::photons);

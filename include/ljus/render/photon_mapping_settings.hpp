@@ -65,8 +65,9 @@ struct PhotonMappingSettings {
                           ///< mirrors and glass.
     /// Number of the first surface at which roulette may end a path.
     int roulette_depth = 4;
-    int shadow_rays = 1; ///< Shadow rays to each light, at least 1. A glossy surface
-                         ///< sends one, if the path's next ray finds lamps as well.
+    int shadow_rays = 1; ///< Shadow rays to each light, at least 1. Unless `direct` is
+                         ///< `sampled`, a glossy surface sends one if the path's next
+                         ///< ray finds lamps as well, or if it has met a D before.
     DirectLight direct = DirectLight::sampled; ///< How direct light is found.
     /// Whether paths split at glass before the first matt surface.
     bool split_glass = false;

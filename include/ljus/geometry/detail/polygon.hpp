@@ -66,7 +66,7 @@ struct CutPolygon {
     };
     std::vector<std::uint32_t> left(corners.size());
     std::iota(left.begin(), left.end(), 0u);
-    // The corners before, at and after position i of `left`.
+    // The corners before, at and after position i of `left`, which stays in order.
     const auto at = [&](std::size_t i) {
         const std::size_t n = left.size();
         return std::array{left[(i + n - 1) % n], left[i % n], left[(i + 1) % n]};
@@ -80,19 +80,19 @@ struct CutPolygon {
         if (is_hollow(i)) hollow.push_back(left[i]);
     const auto is_ear = [&](std::size_t i) {
         const auto [a, b, c] = at(i);
-        if (corners[a] == corners[c]) return true; // there and back, without an area
-        if (!(turn(a, b, c) > 0)) return false;
         const auto is = [&](std::uint32_t p, std::uint32_t q) {
             return corners[p] == corners[q];
         };
+        if (is(a, b) || is(b, c) || is(c, a)) return true; // without an area
+        if (!(turn(a, b, c) > 0)) return false;
         // Whether p is between the two edges that meet in b, or on one of them.
         const auto is_between = [&, a = a, b = b, c = c](std::uint32_t p) {
             return is(p, a) || is(p, c) || (turn(a, b, p) > 0 && turn(b, c, p) > 0);
         };
         for (const std::uint32_t p : hollow)
             if (is(p, b)) { // parts of the polygon meet in b, with a gap at p
-                const auto k = std::find(left.begin(), left.end(), p) - left.begin();
-                const auto [before, same, after] = at(std::size_t(k));
+                const auto k = std::lower_bound(left.begin(), left.end(), p);
+                const auto [before, same, after] = at(std::size_t(k - left.begin()));
                 if (is_between(before) && is_between(after)) return false;
             } else if (!is(p, a) && !is(p, c) && turn(a, b, p) >= 0 &&
                        turn(b, c, p) >= 0 && turn(c, a, p) >= 0) {
