@@ -1,4 +1,4 @@
-// The library ljus::core: instantiates the templates listed in ljus/core.hpp, and two
+// The library ljus::core: instantiates the templates listed in ljus/core.hpp, and three
 // more at the end of this file. To compile it without CMake:
 //
 //     g++ -std=c++20 -O3 -ffp-contract=off -fopenmp -Iinclude -c core/core.cpp
@@ -21,12 +21,16 @@
 #include "ljus/core.hpp"
 #include "ljus/render/irradiance_cache.hpp"
 
-// The headers of these two declare them for programs that define LJUS_CORE.
+// The headers of these three declare them for programs that define LJUS_CORE.
 namespace ljus {
 
 template std::optional<Rgb> interpolate(const IrradianceCache&, const Vec3&,
                                         const Vec3&, float);
 template std::optional<Rgb> irradiance_at(const IrradiancePoints&, const Vec3&,
                                           const Vec3&);
+template detail::NearestPhotons
+detail::nearest_photons(const PhotonMap&, const SurfacePoint&, float,
+                        std::span<Neighbor>,
+                        const detail::OfIndex<detail::SourcePhotonsT<float>>&);
 
 } // namespace ljus

@@ -137,12 +137,15 @@ TEST_CASE("low_discrepancy: the direction numbers are those of Joe and Kuo") {
                 if ((lines[d].a >> (s - 1 - j) & 1u) != 0) next ^= m[k - j] << j;
             m.push_back(next);
         }
+        std::uint32_t all = 0; // of the bits 0 to k
         for (std::uint32_t k = 0; k < 32; ++k) {
             CAPTURE(d);
             CAPTURE(k);
             const auto dimension = static_cast<std::uint32_t>(d + 1);
             CHECK(detail::sobol(1u << k, dimension) == m[k] << (31 - k));
             CHECK(detail::sobol(1u << k, 0) == 1u << (31 - k));
+            all ^= m[k] << (31 - k);
+            CHECK(detail::sobol(~0u >> (31 - k), dimension) == all);
         }
     }
 }

@@ -1,7 +1,7 @@
 # A ray that leaves glass on a floor meets the air between.
 ljus_break_it(NAME contacts-first HEADER scene/world.hpp TEST contacts
-    FROM "return place_of(world, ray, hit).met;"
-    TO   "return hit;"
+    FROM "hit = place_of(world, ray, *hit).met;"
+    TO   "(void)0;"
     CASES "contacts: glass that rests on a floor*")
 
 # Glass against water has the boundary of water against air.

@@ -8,7 +8,7 @@ ljus_break_it(NAME final-gathering-order HEADER photons/irradiance_points.hpp
 # The photons that became points count, too, and the sum is too large by their part.
 ljus_break_it(NAME final-gathering-own-photon HEADER photons/irradiance_points.hpp
     TEST final_gathering
-    FROM "!is_point(general, k, settings.every)"
+    FROM "!is_point(map, index, every)"
     TO   "true"
     CASES "final gathering: what is looked up*")
 

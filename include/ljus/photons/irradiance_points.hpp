@@ -70,6 +70,27 @@ template <std::floating_point T>
     return false;
 }
 
+/// The photons of one kind, without those that are lookup points.
+template <std::floating_point T>
+struct SourcePhotonsT {
+    const PhotonMapT<T>& map; ///< The photons.
+    PhotonKind kind;          ///< The kind that counts.
+    int every = 0; ///< As in IrradiancePointSettings; 0: no photon is a lookup point.
+    [[nodiscard]] bool operator()(std::uint32_t index) const {
+        return is_of_kind(map, index, kind) &&
+               (every == 0 || !is_point(map, index, every));
+    }
+};
+
+/// A condition on the index of a photon, as nearest_photons() asks it.
+template <typename Wanted>
+struct OfIndex {
+    const Wanted& wanted; ///< The condition.
+    [[nodiscard]] bool operator()(std::uint32_t index, const auto& /*record*/) const {
+        return wanted(index);
+    }
+};
+
 /// Whether a point lies above or below a disc that is as high as its radius.
 /// \param way  The vector from the centre of the disc to the point.
 template <std::floating_point T>
@@ -100,7 +121,7 @@ estimate_irradiance(const W& world, const PhotonMapT<T>& map, const VertexT<T>& 
                     T radius, const Wanted& wanted) {
     // [estimate_irradiance]
     // Photons have the normal of the shape. Their directions give the side.
-    const auto counts = [&](std::uint32_t i, const auto&) { return wanted(i); };
+    const detail::OfIndex<Wanted> counts{wanted};
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] = detail::nearest_photons(
         map, vertex.point, radius, std::span(room.data(), settings.nearest), counts);
@@ -178,13 +199,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
     const T every = T(settings.every);
     // [at_point]
     RgbT<T> sum = direct_at_point(world, vertex, settings.shadow_rays, context);
-    const auto indirect = [&](std::uint32_t k) {
-        return is_of_kind(general, k, PhotonKind::indirect) &&
-               !is_point(general, k, settings.every);
-    };
-    const auto caustic = [&](std::uint32_t k) {
-        return is_of_kind(caustics, k, PhotonKind::caustic);
-    };
+    const SourcePhotonsT<T> indirect{general, PhotonKind::indirect, settings.every};
+    const SourcePhotonsT<T> caustic{caustics, PhotonKind::caustic};
     sum +=
         estimate_irradiance(world, general, vertex, side, settings, radius, indirect) *
         (every / (every - 1));
@@ -302,6 +318,10 @@ irradiance_at(const IrradiancePointsT<T>& points, const Vec3T<T>& position,
 #ifdef LJUS_CORE // defined in ljus::core
 extern template std::optional<Rgb> irradiance_at(const IrradiancePoints&, const Vec3&,
                                                  const Vec3&);
+extern template detail::NearestPhotons
+detail::nearest_photons(const PhotonMap&, const SurfacePoint&, float,
+                        std::span<Neighbor>,
+                        const detail::OfIndex<detail::SourcePhotonsT<float>>&);
 #endif
 
 /// \}

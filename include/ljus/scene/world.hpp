@@ -913,17 +913,25 @@ template <typename S, typename Compute, std::floating_point T>
 template <typename S, typename Compute, std::floating_point T>
 [[nodiscard]] inline std::optional<SceneHitT<T>>
 closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
-    if (world.ids().empty()) return closest_hit_plain(world, ray);
+    std::optional<SceneHitT<T>> hit;
+    if (world.ids().empty()) {
+        hit = closest_hit_plain(world, ray);
+        return hit;
+    }
     const auto nearest =
         nearest_hit(world.tree(), ray, [&](std::uint32_t slot, const RayT<T>& rest) {
             return world.visit_shape(world.ids()[slot], [&](const auto& shape) {
                 return detail::hit_on<Compute>(world, world.ids()[slot], rest, shape);
             });
         });
-    if (!nearest.found) return std::nullopt;
-    const SceneHitT<T> hit{nearest.at, world.ids()[nearest.slot]};
-    if (!world.may_share_place(ray, nearest.at.t)) return hit;
-    return place_of(world, ray, hit).met;
+    if (!nearest.found) return hit;
+    hit.emplace().object = world.ids()[nearest.slot];
+    hit->at.t = nearest.at.t; // by component, because a wide copy would stall
+    hit->at.u = nearest.at.u;
+    hit->at.v = nearest.at.v;
+    hit->at.part = nearest.at.part;
+    if (world.may_share_place(ray, hit->at.t)) hit = place_of(world, ray, *hit).met;
+    return hit;
 }
 
 /// Whether any object intersects a ray in [t_min, t_max]. The first hit that is found

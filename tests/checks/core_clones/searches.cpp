@@ -1,8 +1,10 @@
 // Prints what the searches that ljus::core has for several processors find, bit by bit.
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include "ljus/accel/mesh.hpp"
@@ -89,6 +91,13 @@ int main() {
             add(e);
             largest = glm::max(largest, e.r);
         }
+        std::array<Neighbor, 50> found_photons;
+        const detail::SourcePhotonsT<float> indirect{map, PhotonKind::indirect, 4};
+        const detail::OfIndex<detail::SourcePhotonsT<float>> counts{indirect};
+        const auto near =
+            detail::nearest_photons(map, point, 0.1f, std::span(found_photons), counts);
+        add(float(near.radius2));
+        add(float(near.photons.size()));
     }
 
     // The searches of the preset fast.
