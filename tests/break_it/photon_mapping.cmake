@@ -198,6 +198,13 @@ ljus_break_it(NAME photon-mapping-gloss-shadow-rays HEADER render/photon_mapping
 # A path ends at gloss also where the general map lacks the light of mirrors.
 ljus_break_it(NAME photon-mapping-gloss-ends HEADER render/gathering.hpp
     TEST photon_mapping_steps
-    FROM "!mapper.passes().gloss_as_mirrors && !scatters_through(material) &&"
-    TO   "!scatters_through(material) &&"
+    FROM "if (mapper.passes().gloss_as_mirrors || scatters_through(material) ||"
+    TO   "if (scatters_through(material) ||"
     CASES "photon mapping: behind a glossy*")
+
+# A path ends at a ball smaller than the disc, of which most lies beside the ball.
+ljus_break_it(NAME photon-mapping-gloss-small HEADER render/gathering.hpp
+    TEST photon_mapping_steps
+    FROM "return bounding_sphere(shape).radius > radius;"
+    TO   "return true;"
+    CASES "photon mapping: a path goes on*")

@@ -36,8 +36,8 @@ ljus_break_it(NAME volume-photons-border HEADER media/fog.hpp
 # In a sphere the mirror image stands on the border.
 ljus_break_it(NAME volume-photons-border-sphere HEADER media/fog.hpp
     TEST volume_photons
-    FROM "(2 * sphere.radius / distance - 1) * off"
-    TO   "(sphere.radius / distance) * off"
+    FROM "std::cbrt(2 * ratio * ratio * ratio - 1) * off"
+    TO   "ratio * off"
     CASES "volume_photons: along its border*")
 
 # The photon counts among its neighbours.
