@@ -924,8 +924,8 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
         const Vec3 place = points.tree.point(0) - Vec3{far, 0, 0};
         CHECK(irradiance_at(points, place, Vec3{0, 0, 1}).has_value() == (far < 0.2f));
     }
-    // No gather ray looks up irradiance on gloss. Where a part of the photons lies there,
-    // no points are made of them, and lookups reach farther for the others.
+    // No gather ray looks up irradiance on gloss, and no points are made of the photons
+    // there. Lookups reach as far as a disc that holds two more points than its own.
     const auto half_gloss = [&](float gloss_from) {
         Chamber floor;
         const auto matt = floor.add(Lambertian{});
@@ -945,12 +945,18 @@ TEST_CASE("final gathering: direct photons are no part of what is worked out") {
     for (std::size_t i = 0; i < 67; ++i) on_matt += whole.tree.point(i).x < 0.045f;
     REQUIRE(part.records.size() == on_matt);
     REQUIRE(on_matt < 30);
+    double logarithms = 0;
     for (std::size_t i = 0; i < on_matt; ++i) {
         CHECK(part.tree.point(i).x < 0.045f);
         CHECK(part.records[i].irradiance.x > 0);
+        std::vector<double> distances;
+        for (std::size_t k = 0; k < on_matt; ++k)
+            distances.push_back(
+                double(glm::distance(part.tree.point(i), part.tree.point(k))));
+        std::sort(distances.begin(), distances.end());
+        logarithms += std::log(distances.at(2)); // the first is the point itself
     }
-    CHECK(part.radius ==
-          doctest::Approx(whole.radius * std::sqrt(67.0 / double(on_matt))));
+    CHECK(part.radius == doctest::Approx(std::exp(logarithms / double(on_matt))));
     CHECK(half_gloss(-1).records.empty());
     const IrradiancePointSettings settings; // if nothing is said
     CHECK(settings.every == 6);

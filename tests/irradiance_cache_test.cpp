@@ -106,7 +106,7 @@ TEST_CASE("irradiance cache: a point counts as far as its nearest like ones lie"
 TEST_CASE("irradiance cache: what one ray has found is spread over near points") {
     // 100 points on a floor and 100 on a wall through its middle, which know 1. At one
     // point of the floor, one ray has found `more` beside that.
-    const auto spread = [](float more, float distance) {
+    const auto spread = [](float more, float distance, int rays = 25) {
         std::vector<Vec3> places;
         std::vector<GatheredT<float>> records;
         for (int i = 0; i < 200; ++i) {
@@ -121,10 +121,16 @@ TEST_CASE("irradiance cache: what one ray has found is spread over near points")
         records[44].irradiance += Rgb{more, 0, more};
         records[44].brightest = Rgb{more, 0, more};
         records[44].distance = distance;
-        const auto cache = make_irradiance_cache(places, records, GatherSettings{}, 1);
         std::vector<Rgb> found(200);
-        for (std::size_t i = 0; i < 200; ++i)
-            found[cache.tree.point_ids()[i]] = cache.records[i].irradiance;
+        for (int times = 0; times < 2; ++times) { // the second time, nothing is spread
+            const auto cache =
+                make_irradiance_cache(places, records, {.rays = rays}, 1);
+            for (std::size_t i = 0; i < 200; ++i) {
+                const std::uint32_t id = cache.tree.point_ids()[i];
+                records[id] = cache.records[i];
+                found[id] = records[id].irradiance;
+            }
+        }
         return found;
     };
     const auto changed = [](const std::vector<Rgb>& found, float value) {
@@ -149,6 +155,9 @@ TEST_CASE("irradiance cache: what one ray has found is spread over near points")
     CHECK(spread(0.19f, 100)[44].x == doctest::Approx(1.19f));
     CHECK(spread(0.21f, 100)[44].x < 1.01f);
     CHECK(spread(10, 0.5f)[44].x == 11);
+    // Of few rays each carries much.
+    CHECK(spread(2, 100, 6)[44].x == 3);
+    CHECK(spread(2.1f, 100, 6)[44].x < 1.1f);
 }
 
 namespace {

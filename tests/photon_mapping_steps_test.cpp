@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ljus/geometry/cylinder.hpp"
 #include "ljus/inspect/scene_remarks.hpp"
 #include "ljus/materials/glossy.hpp"
 #include "ljus/math/sampling.hpp"
@@ -475,14 +476,15 @@ TEST_CASE("photon mapping: behind a glossy surface only photons answer for gloss
 }
 
 TEST_CASE("photon mapping: a path goes on at gloss that is smaller than the disc") {
-    // With balls of radius 0.02 in a corner, the wall beside them was 5.6 % too dark.
-    Scene<Shapes<Quad, Sphere>, Materials<Glossy>, Lights<PointLight>> room;
+    // On a ball, and also on a long rod, most of the disc would lie beside the surface.
+    Scene<Shapes<Quad, Sphere, Cylinder>, Materials<Glossy>, Lights<PointLight>> room;
     const Glossy gloss{.reflectance = Rgb{0.9f}, .roughness = 0.6f};
     const auto is = room.add(gloss);
     room.add(Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}, is);
     room.add(Quad{{-9, 9, -9}, {18, 0, 0}, {0, 0, 18}}, is);
     room.add(Sphere{.center{-1, 0, 0}, .radius = 1e-3f}, is);
     room.add(Sphere{.center{3, 0, 0}, .radius = 2}, is);
+    room.add(Cylinder{.base{0, -0.5f, 1}, .radius = 1e-3f}, is);
     room.add(PointLight{.position{0, 5, 0}, .intensity = Rgb{1}});
     const World world(std::move(room));
     const auto settings = distinct(IndirectLight::gather, DirectLight::sampled);
@@ -497,6 +499,7 @@ TEST_CASE("photon mapping: a path goes on at gloss that is smaller than the disc
         return ends_on_gloss(mapper, *vertex, gloss);
     };
     CHECK_FALSE(ends({-1, 0, 0}));
+    CHECK_FALSE(ends({0, 0, 1}));
     CHECK(ends({1, 0, 0}));
     CHECK(ends({0, -1, 0})); // at the floor
 }

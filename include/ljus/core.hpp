@@ -135,7 +135,7 @@ LJUS_CORE_EXTERN template Sphere sphere_around(const std::vector<Sphere>&);
 LJUS_CORE_EXTERN template PhotonMap map_of_parts(PhotonPartsT<float>, int);
 } // namespace detail
 LJUS_CORE_EXTERN template PhotonMap make_photon_map(const std::vector<Photon>&, int);
-LJUS_CORE_EXTERN template float typical_radius(const PhotonMap&, std::size_t,
+LJUS_CORE_EXTERN template float typical_radius(const KdTree8&, std::size_t,
                                                std::size_t);
 LJUS_CORE_EXTERN template PhotonMap lone_photons(const PhotonMap&, float);
 LJUS_CORE_EXTERN template RgbT<double>

@@ -202,9 +202,9 @@ ljus_break_it(NAME photon-mapping-gloss-ends HEADER render/gathering.hpp
     TO   "if (scatters_through(material) ||"
     CASES "photon mapping: behind a glossy*")
 
-# A path ends at a ball smaller than the disc, of which most lies beside the ball.
+# A path ends at a ball or rod smaller than the disc, of which most lies beside it.
 ljus_break_it(NAME photon-mapping-gloss-small HEADER render/gathering.hpp
     TEST photon_mapping_steps
-    FROM "return bounding_sphere(shape).radius > radius;"
+    FROM "return is_below(x) && is_below(-x) && is_below(y) && is_below(-y);"
     TO   "return true;"
     CASES "photon mapping: a path goes on*")

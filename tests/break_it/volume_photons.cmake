@@ -36,8 +36,8 @@ ljus_break_it(NAME volume-photons-border HEADER media/fog.hpp
 # In a sphere the mirror image stands on the border.
 ljus_break_it(NAME volume-photons-border-sphere HEADER media/fog.hpp
     TEST volume_photons
-    FROM "std::cbrt(2 * ratio * ratio * ratio - 1) * off"
-    TO   "ratio * off"
+    FROM "const T ratio = 2 * sphere.radius / distance - 1;"
+    TO   "const T ratio = sphere.radius / distance;"
     CASES "volume_photons: along its border*")
 
 # The photon counts among its neighbours.

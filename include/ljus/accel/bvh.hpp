@@ -37,10 +37,11 @@ struct NearestHitT {
     /// \return Whether the hit was accepted.
     bool offer(const ShapeHitT<T>& hit, std::uint32_t of, RayT<T>& ray) noexcept {
         if (found && !(hit.t < at.t || (hit.t == at.t && of < number))) return false;
-        at.t = hit.t; // by component, because a wide copy would stall
-        at.u = hit.u;
-        at.v = hit.v;
-        at.part = hit.part;
+        const auto& [t, u, v, part] = hit; // by member: a wide copy would stall
+        at.t = t;
+        at.u = u;
+        at.v = v;
+        at.part = part;
         number = of;
         found = true;
         const T beyond = hit.t + hit.t * std::numeric_limits<T>::epsilon() +

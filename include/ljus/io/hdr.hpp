@@ -234,7 +234,7 @@ template <std::floating_point T = float>
     for (auto low = image.pixels.begin(), high = image.pixels.end();
          upwards && high - low > width; low += width)
         high = std::swap_ranges(low, low + width, high - width) - width;
-    if (xyze)
+    if (xyze) // as Radiance converts them: (1/3, 1/3) becomes white
         primaries = glm::inverse(detail::columns_of(detail::radiance_primaries)) / 179.;
     detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());
     return image;

@@ -84,17 +84,18 @@ template <std::floating_point T>
 }
 
 /// Calls f with a point in a sphere and, if the border is within `reach` of the point,
-/// with its image in the border. The image lies on the same radius, beyond a shell as
-/// large as that from the point to the border: evenly spread points have such images.
+/// with its mirror image on the same radius. The image stands for a larger shell than
+/// the point: its weight is the ratio of the areas, and at most 9, since points nearer
+/// to the center than to the border have no image.
 template <std::floating_point T, typename F>
 void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f) {
-    f(point);
+    f(point, T(1));
     const Vec3T<T> off = point - sphere.center;
     const T distance = glm::length(off);
     const T inside = sphere.radius - distance;
-    if (inside >= T(0) && inside < reach && distance > T(0)) {
-        const T ratio = sphere.radius / distance;
-        f(sphere.center + std::cbrt(2 * ratio * ratio * ratio - 1) * off);
+    if (inside >= T(0) && inside < std::min(reach, sphere.radius / 2)) {
+        const T ratio = 2 * sphere.radius / distance - 1;
+        f(sphere.center + ratio * off, ratio * ratio);
     }
 }
 
@@ -104,7 +105,7 @@ void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f)
 template <std::floating_point T, typename F>
 void each_image(const BoxT<T>& box, const Vec3T<T>& point, T reach, F&& f,
                 int axis = 0) {
-    if (axis == 3) return f(point);
+    if (axis == 3) return f(point, T(1));
     each_image(box, point, reach, f, axis + 1);
     const T above = point[axis] - box.low[axis], below = box.high[axis] - point[axis];
     for (const T shift : {-2 * above, 2 * below})

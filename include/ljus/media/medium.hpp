@@ -57,13 +57,13 @@ concept Medium = requires(const M& medium, const RayT<typename M::Scalar>& ray,
     { sample_phase(medium, travel, u) } -> std::same_as<Vec3T<typename M::Scalar>>;
 };
 
-/// Calls f with a point of a medium. An overload for a type of medium also calls f with
-/// each mirror image of the point in a border within `reach`, so that the light of
-/// photons near the border stays in the medium. Without one, the medium is up to half
-/// too dark within its photons' radius of the border.
+/// Calls f with a point of a medium and the weight 1. An overload for a type of medium
+/// also calls f with each mirror image of the point in a border within `reach` and with
+/// its weight, so that the light of photons near the border stays in the medium.
+/// Without one, the medium is too dark within its photons' radius of the border.
 template <Medium M, std::floating_point T, typename F>
 void each_image(const M&, const Vec3T<T>& point, T /*reach*/, F&& f) {
-    f(point);
+    f(point, T(1));
 }
 
 /// \}

@@ -42,9 +42,10 @@ template <AnyWorld W>
 template <std::floating_point T>
 struct AimedPhotonT {
     EmittedPhotonT<T> photon; ///< The photon.
-    ObjectId target;          ///< The photon counts only if it hits this object first.
-    /// If the photon is aimed at the whole cone of emission, all objects that fill this
-    /// cone. The photon also counts if it hits one of these first.
+    ObjectId target;          ///< The photon counts only if the first object that it
+                              ///< hits is this one or one of `others`.
+    /// All objects that fill the cone in which the light emits, if the photon is aimed
+    /// at several of them at once; otherwise empty.
     std::vector<ObjectId> others{};
 };
 
@@ -217,7 +218,7 @@ sample_aim(const W& world, const ConeT<T>& emission, const Vec3T<T>& from,
     if (!chosen) return std::nullopt;
     const AimT<T>& at = chosen->at;
     AimedDirectionT<T> aimed{.target = chosen->target};
-    if (at.at_all) aimed.others = std::move(at_all);
+    if (at.at_all && at_all.size() > 1) aimed.others = std::move(at_all);
     if (at.at_area) {
         const auto seen =
             world.visit_shape(chosen->target, [&]<typename G>(const G& shape) {

@@ -273,16 +273,10 @@ template <AnyWorld W, std::floating_point T>
 
     IrradiancePointsT<T> points;
     points.radius = points.disc = radius;
-    // Direct photons are missing in shadows, where points are therefore far apart. The
-    // fewer points are kept, the farther a lookup reaches.
-    if (settings.radius == 0 && detail::has_direct(general)) {
-        const T part = T(std::max<std::size_t>(kept, 1)) / T(chosen.size());
-        points.radius = std::min(
-            radius,
-            typical_radius(general, std::size_t(std::min(2 * settings.every, 511))) /
-                std::sqrt(part));
-    }
     points.tree = KdTree8T<T>(positions, threads);
+    // Direct photons are missing in shadows, where points are therefore far apart.
+    if (settings.radius == 0 && detail::has_direct(general))
+        points.radius = std::min(radius, typical_radius(points.tree, 2));
     points.records.reserve(kept);
     for (const std::uint32_t i : points.tree.point_ids())
         points.records.push_back(records[i]);

@@ -96,25 +96,32 @@ template <std::floating_point T>
 
 /// The geometric mean of the radii of discs, around photons of a map, that contain a
 /// given number of photons.
-/// \param map    The photons.
+/// \param tree   The positions of the photons.
 /// \param count  Number of photons in a disc, 1 to 511.
 /// \param most   The largest number of discs, above 0.
 /// \return In scene units; 1 if there are no photons, or if all lie at one point.
 template <std::floating_point T>
-[[nodiscard, gnu::cold]] T typical_radius(const PhotonMapT<T>& map, std::size_t count,
+[[nodiscard, gnu::cold]] T typical_radius(const KdTree8T<T>& tree, std::size_t count,
                                           std::size_t most = 255) {
     std::array<Neighbor, 512> room;
     const std::span<Neighbor> found(room.data(), count + 1); // with the photon itself
-    const std::size_t step = map.records.size() / most + 1;
+    const std::size_t step = tree.size() / most + 1;
     double logarithms = 0, photons = 0;
-    for (std::size_t i = 0; i < map.records.size(); i += step) {
-        const std::size_t near = map.tree.template nearest<512>(
-            map.tree.point(i), std::numeric_limits<T>::infinity(), found);
+    for (std::size_t i = 0; i < tree.size(); i += step) {
+        const std::size_t near = tree.template nearest<512>(
+            tree.point(i), std::numeric_limits<T>::infinity(), found);
         if (near < 2 || !(found[0].distance2 > 0)) continue;
         logarithms += std::log(found[0].distance2) / 2;
         ++photons;
     }
     return photons > 0 ? static_cast<T>(std::exp(logarithms / photons)) : T(1);
+}
+
+/// The same for the photons of a map.
+template <std::floating_point T>
+[[nodiscard]] T typical_radius(const PhotonMapT<T>& map, std::size_t count,
+                               std::size_t most = 255) {
+    return typical_radius(map.tree, count, most);
 }
 
 /// \}

@@ -183,15 +183,16 @@ template <AnyWorld W, std::floating_point T, KernelLike<T> K>
         const auto span = span_in(medium, ray); // where the ray is in this fog
         if (!span) return;
         const T turned = phase(medium, -glm::dot(ray.direction, photon.direction));
-        each_image(medium, photon.position, photon.radius, [&](const auto& image) {
+        const auto add = [&](const Vec3T<T>& image, T weight) {
             const Vec2T<T> at = place(image);
             if (!(at.x > span->first && at.x < span->last && at.y < radius2)) return;
             RayT<T> before = ray;
             before.t_max = at.x;
-            light += turned * kernel_weight(kernel, at.y / radius2) /
+            light += weight * turned * kernel_weight(kernel, at.y / radius2) /
                      (std::numbers::pi_v<T> * radius2) * photon.flux *
                      transmittance(optical_depth(world, before), T(1));
-        });
+        };
+        each_image(medium, photon.position, photon.radius, add);
     });
     return light;
 }

@@ -201,7 +201,8 @@ struct GatheredT {
     /// Distance to the k-th nearest point of the cache with a similar normal, where k
     /// is GatherSettings::nearest. The point itself is the first.
     T spacing = T(0);
-    RgbT<T> brightest{T(0)}; ///< The brightest ray's part of the irradiance, in W/m^2.
+    RgbT<T> brightest{T(0)}; ///< The brightest ray's part of the irradiance, in W/m^2;
+                             ///< 0 once a cache has divided it among near points.
 };
 
 /// Gathers the indirect irradiance at a vertex, by stratified rays. On a Lambertian

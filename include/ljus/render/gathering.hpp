@@ -84,19 +84,29 @@ template <typename Mapper>
 /// Whether a path that has met a diffuse surface ends at a glossy surface, where
 /// photons_on_gloss() finds its indirect light. With nearly_specular() objects in the
 /// scene the path goes on, because the general map lacks the light that they reflect.
-/// It goes on at curved objects that are smaller than the disc as well.
+/// It also goes on where the surface ends within the disc, as on thin rods, unless the
+/// shape has corners: part_on_surface() knows which part of the disc lies on such a
+/// shape.
 template <typename Mapper, std::floating_point T, Material M>
 [[nodiscard]] bool ends_on_gloss(const Mapper& mapper, const VertexT<T>& vertex,
-                                 const M& material) noexcept {
+                                 const M& material) {
     if (mapper.passes().gloss_as_mirrors || scatters_through(material) ||
         has(lobes(material), Lobes::diffuse))
         return false;
     const T radius = radius_on_gloss(mapper);
-    return radius > 0 && mapper.world().visit_shape(vertex.id, [&](const auto& shape) {
-        if constexpr (requires { corners_of(shape); })
-            return true; // see part_on_surface()
-        else
-            return bounding_sphere(shape).radius > radius;
+    if (!(radius > T(0))) return false;
+    const VertexT<T>& resting = detail::at_rest(mapper.world(), vertex);
+    const Vec3T<T> normal = detail::seen_normal(resting);
+    const auto is_below = [&](const Vec3T<T>& off) {
+        const auto found = detail::vertex_below(
+            mapper.world(), resting.point.position + off, normal, radius);
+        return found && found->id == vertex.id;
+    };
+    return mapper.world().visit_shape(vertex.id, [&](const auto& shape) {
+        if constexpr (requires { corners_of(shape); }) return true;
+        const Vec3T<T> x = radius * resting.frame.tangent;
+        const Vec3T<T> y = radius * resting.frame.bitangent;
+        return is_below(x) && is_below(-x) && is_below(y) && is_below(-y);
     });
 }
 

@@ -177,27 +177,31 @@ void measure_spacing(IrradianceCacheT<T>& cache, const GatherSettings& settings,
 /// Spreads light that a single gather ray has found. A point whose ray meets a small
 /// bright area, such as the focus of a caustic, is too bright, and the points around it
 /// are too dark. Where the brightest ray carries more than a sixth of the irradiance,
-/// its part is divided equally among the nearest 64 points with a similar normal. None
-/// is farther than interpolate() would use the point. The sum over all points stays.
+/// and more than four times the mean of the rays, its part is divided equally among the
+/// nearest 64 points with a similar normal within `reach`. The sum over all points
+/// stays the same.
 template <std::floating_point T>
-void spread_brightest(IrradianceCacheT<T>& cache, T reach) {
-    constexpr T least = T(1) / T(6); // by measurement
+void spread_brightest(IrradianceCacheT<T>& cache, const GatherSettings& settings) {
+    constexpr std::size_t most = 64;
+    const T least = std::max(T(1) / T(6), T(4) / T(settings.rays));
     std::vector<RgbT<T>> received(cache.records.size(), RgbT<T>{T(0)});
     for (std::uint32_t i = 0; i < cache.records.size(); ++i) {
         GatheredT<T>& record = cache.records[i];
         if (!(max_component(record.brightest) >
               least * max_component(record.irradiance)))
             continue;
-        std::array<Neighbor, max_cache_nearest> room;
+        std::array<Neighbor, most> room;
         const auto like = [&](std::uint32_t k) {
             return like_normals(cache.records[k].normal, record.normal);
         };
-        const std::size_t count = cache.tree.template nearest<max_cache_nearest>(
-            cache.tree.point(i), reach * record.distance, std::span(room), like);
+        const std::size_t count = cache.tree.template nearest<most>(
+            cache.tree.point(i), T(settings.reach) * record.distance, std::span(room),
+            like);
         if (count < 2) continue;
         record.irradiance -= record.brightest;
         for (const Neighbor& near : std::span(room).first(count))
             received[near.index] += record.brightest / T(count);
+        record.brightest = RgbT<T>{T(0)};
     }
     for (std::size_t i = 0; i < received.size(); ++i)
         cache.records[i].irradiance += received[i];
@@ -206,6 +210,7 @@ void spread_brightest(IrradianceCacheT<T>& cache, T reach) {
 } // namespace detail
 
 /// Makes a cache of points where irradiance is known, and finds the spacing of each.
+/// Light that a single gather ray has found is divided among near points.
 /// \param positions  The points, in scene units.
 /// \param records    Irradiance and normal of each point, in the same order.
 /// \param settings   The spacing of a point is the distance to its k-th nearest point
@@ -224,7 +229,7 @@ make_irradiance_cache(const std::vector<Vec3T<T>>& positions,
     cache.records.reserve(records.size());
     for (const std::uint32_t i : cache.tree.point_ids())
         cache.records.push_back(records[i]);
-    detail::spread_brightest(cache, T(settings.reach));
+    detail::spread_brightest(cache, settings);
     detail::measure_spacing(cache, settings, threads);
     return cache;
 }

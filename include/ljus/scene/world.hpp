@@ -925,11 +925,12 @@ closest_hit(const World<S, Compute>& world, const RayT<T>& ray) {
             });
         });
     if (!nearest.found) return hit;
+    const auto& [t, u, v, part] = nearest.at; // by member: a wide copy would stall
     hit.emplace().object = world.ids()[nearest.slot];
-    hit->at.t = nearest.at.t; // by component, because a wide copy would stall
-    hit->at.u = nearest.at.u;
-    hit->at.v = nearest.at.v;
-    hit->at.part = nearest.at.part;
+    hit->at.t = t;
+    hit->at.u = u;
+    hit->at.v = v;
+    hit->at.part = part;
     if (world.may_share_place(ray, hit->at.t)) hit = place_of(world, ray, *hit).met;
     return hit;
 }
