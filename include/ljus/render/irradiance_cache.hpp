@@ -3,10 +3,12 @@
 /// \file ljus/render/irradiance_cache.hpp
 /// \brief Indirect light, gathered at few points and interpolated between them.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "ljus/render/final_gathering.hpp"
 #include "ljus/render/render.hpp"

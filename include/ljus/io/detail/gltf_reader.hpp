@@ -3,10 +3,12 @@
 /// \file ljus/io/detail/gltf_reader.hpp
 /// \brief Reads the meshes, cameras and lights of the nodes of a glTF scene.
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
