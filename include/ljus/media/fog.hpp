@@ -86,7 +86,7 @@ template <std::floating_point T>
 /// Calls f with a point in a sphere and, if the border is within `reach` of the point,
 /// with its mirror image on the same radius. The image stands for a larger shell than
 /// the point: its weight is the ratio of the areas, and at most 9, since points nearer
-/// to the center than to the border have no image.
+/// to the centre than to the border have no image.
 template <std::floating_point T, typename F>
 void each_image(const SphereT<T>& sphere, const Vec3T<T>& point, T reach, F&& f) {
     f(point, T(1));
