@@ -126,7 +126,7 @@ TEST_CASE("soap film: hangs under its own weight") {
     CHECK(thickness_at(SoapFilm{.thickness = 300}, {0, -1e9f, 0}) == 300);
     SoapFilm none = film;
     none.thickness = 0;
-    CHECK(std::isfinite(thickness_at(none, {0, -1e9f, 0})));
+    CHECK(thickness_at(none, {0, -1e9f, 0}) == 0); // 0 times infinity
 }
 
 TEST_CASE("soap film: one that cannot be is refused in a sentence") {

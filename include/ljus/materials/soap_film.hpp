@@ -57,10 +57,9 @@ inline constexpr T max_film_thickness = T(1e6);
 template <std::floating_point T>
 [[nodiscard]] T thickness_at(const SoapFilmT<T>& film,
                              const Vec3T<T>& position) noexcept {
-    if (film.scale == T(0)) return film.thickness;
+    if (film.scale == T(0) || film.thickness == T(0)) return film.thickness;
     const T height = glm::dot(position - film.level, film.up);
     const T thickness = film.thickness * std::exp(-height / film.scale);
-    // Far below `level`, a film with d_0 = 0 has a NaN, which gives the maximum.
     return thickness < detail::max_film_thickness<T> ? thickness
                                                      : detail::max_film_thickness<T>;
 }

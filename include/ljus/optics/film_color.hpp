@@ -24,7 +24,7 @@ namespace ljus {
 /// The colour of a spectrum.
 /// \param spectrum  Called with a wavelength in nm; returns a value relative to white
 ///                  light.
-/// \param step      Distance between samples, in nm.
+/// \param step      Distance between samples, in nm; finite and above 0.
 /// \return Linear sRGB, which is (1, 1, 1) for a spectrum that is 1 everywhere. It may
 ///         be outside the range of a screen.
 /// \cost 470 nm / step calls, each with seven exponentials.
