@@ -358,4 +358,18 @@ TEST_CASE("facet: what only touches the plane is no part, what is near it lies o
     CHECK(form_factor_at({}, up, roof) > 1 - 1e-7);
     CHECK(form_factor_at({}, up, roof) < 1 + 1e-12);
     CHECK(form_factor_at({}, up, Facet{}) == 0);
+    // A hexagon of which the horizon cuts one corner: seven corners, as two halves.
+    const auto corner = [](int i) {
+        const double angle = (i + 0.5) * std::numbers::pi / 3;
+        return V{1, -std::cos(angle), std::sin(angle) + 0.7};
+    };
+    Facet hexagon{{}, 6}, one{{}, 4}, two{{}, 4};
+    for (int i = 0; i < 6; ++i) hexagon.corners[std::size_t(i)] = corner(i);
+    for (int i = 0; i < 4; ++i) {
+        one.corners[std::size_t(i)] = corner(i);
+        two.corners[std::size_t(i)] = corner((i + 3) % 6);
+    }
+    CHECK(ljus::detail::clipped(hexagon, {}, up).count == 7);
+    const double halves = form_factor_at({}, up, one) + form_factor_at({}, up, two);
+    CHECK(form_factor_at({}, up, hexagon) == doctest::Approx(halves).epsilon(1e-12));
 }

@@ -54,6 +54,13 @@ std::size_t steps_nearest(const KdTreeT<T>& tree, const Vec3T<T>& center,
 
 } // namespace
 
+TEST_CASE("kd_tree: a point takes 16 bytes, and its boxes") {
+    const auto set = point_sets<float>(4097, 1, 0)[0];
+    const KdTree tree{std::span<const Vec3>(set.points)};
+    CHECK(tree.points().capacity() == tree.size());
+    CHECK(tree.point_ids().capacity() == tree.size());
+}
+
 TEST_CASE("kd_tree: every search is what asking all points gives") {
     ljus_test::every_search<KdTreeT>();
 }

@@ -52,6 +52,16 @@ TEST_CASE("require: a number has a point in every country") {
     CHECK(std::string(detail::with_point(whole)) == "15");
 }
 
+TEST_CASE("require: a vector without a direction, and one too long for its square") {
+    CHECK_NOTHROW(require_direction("up", Vec3{1e-30f, 0, 0}));
+    CHECK_THROWS_WITH(require_direction("up", Vec3{0}),
+                      "up is (0, 0, 0); it must be finite and not 0, for it gives a "
+                      "direction.");
+    for (const double length : {1e-170, 1e200})
+        CHECK_THROWS_WITH(require_direction("up", Vec3T<double>{length, 0, 0}),
+                          doctest::Contains("between 1e-150 and 1e150 long"));
+}
+
 TEST_CASE("require: what holds passes in silence") {
     CHECK_NOTHROW(require(true, "anything", 1.0, "right"));
     CHECK_NOTHROW(require_at_least("samples", 1, 1));

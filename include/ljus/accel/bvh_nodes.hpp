@@ -25,7 +25,7 @@ struct BvhSettings {
 namespace detail {
 
 /// A node: its box, and either two children or a range of primitives. It takes 32 bytes
-/// in float, so that two children share a cache line.
+/// in float, half a cache line.
 // [tree node]
 template <std::floating_point T>
 struct BvhNodeT {

@@ -51,6 +51,8 @@ public:
     ///       more for the boxes.
     explicit KdTreeT(std::span<const Vec3T<T>> points) {
         detail::require_point_count(points.size());
+        point_ids_.reserve(points.size());
+        points_.reserve(points.size());
         for (const Vec3T<T>& point : points) {
             require_finite("a point of the k-d tree", point);
             point_ids_.push_back(static_cast<std::uint32_t>(point_ids_.size()));

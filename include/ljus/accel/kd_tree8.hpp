@@ -46,7 +46,7 @@ public:
     /// \param threads  As in ParallelSettings. The tree does not depend on this number.
     /// \throws std::invalid_argument  if a point is not finite, or if there are too
     ///         many.
-    /// \cost O(n log n) for any n points. In float a point takes 16 bytes, about 1 more
+    /// \cost O(n log n) for any n points. In float a point takes 16 bytes, 1 to 2 more
     ///       for the boxes, and some more during the build.
     explicit KdTree8T(std::span<const Vec3T<T>> points, int threads = 0)
         : KdTree8T(detail::kd_tree8_items(points), threads) {}

@@ -99,7 +99,7 @@ template <typename Caller>
 
 /// A wide tree over triangles, with the searches and results of BvhT. It stores the
 /// triangles in its own order, so that a test reads what the filter has loaded.
-/// \cost About 60 bytes per triangle.
+/// \cost About 55 bytes per triangle.
 class TriangleBvh {
 public:
     /// An empty tree.

@@ -24,8 +24,9 @@ namespace ljus {
 
 /// A convex polygon. Its corners turn counter-clockwise as seen from its front.
 struct Facet {
-    std::array<glm::dvec3, 6> corners{}; ///< The corners: the first `count` elements.
-    int count = 0;                       ///< The number of corners.
+    /// The corners: the first `count` elements. The last element is for clipping.
+    std::array<glm::dvec3, 7> corners{};
+    int count = 0; ///< The number of corners, at most 6.
 };
 
 namespace detail {

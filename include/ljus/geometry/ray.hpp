@@ -19,7 +19,7 @@ namespace ljus {
 ///
 /// The report allows every t >= 0. A ray that leaves a surface may then hit the same
 /// surface again at t = 0; spawn_ray() avoids this. A ray hits nothing if its direction
-/// is zero, if its range is empty, or if its origin, its direction or t_min is not
+/// is zero, if its range is empty or NaN, or if its origin or its direction is not
 /// finite. `t_max` may be infinite.
 /// \report{Definition 3.1}
 // [ray]

@@ -101,14 +101,15 @@ template <std::floating_point T>
                 (map.turn.x * along.y - map.turn.y * along.x)};
 }
 
-/// Requires a finite origin, and finite edges that are not zero.
+/// Requires a finite origin, and edges whose squared lengths are finite and not 0 in T.
 template <std::floating_point T>
 void check(const PlaneMapT<T>& map) {
     require_finite("plane_map.origin", map.origin);
     const T u2 = glm::dot(map.edge_u, map.edge_u);
     const T v2 = glm::dot(map.edge_v, map.edge_v);
-    require(std::isnormal(u2), "plane_map.edge_u", map.edge_u, "finite and not 0");
-    require(std::isnormal(v2), "plane_map.edge_v", map.edge_v, "finite and not 0");
+    constexpr const char* right = "of a length whose square is finite and not 0";
+    require(std::isnormal(u2), "plane_map.edge_u", map.edge_u, right);
+    require(std::isnormal(v2), "plane_map.edge_v", map.edge_v, right);
 }
 
 /// Requires a finite centre.

@@ -154,7 +154,7 @@ requires detail::is_lamp<L>
 }
 
 /// The form factor to the lamp from a point of a surface with the given unit normal.
-/// \return In [0, 1]; nothing if the shape has no closed form.
+/// \return In [0, 1]; nothing if the shape has no closed form, or none from this point.
 template <typename S, std::floating_point T>
 [[nodiscard]] std::optional<T> form_factor(const AreaLightT<S>& light,
                                            const Vec3T<T>& from, const Vec3T<T>& normal,

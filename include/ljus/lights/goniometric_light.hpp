@@ -44,10 +44,11 @@ enum class Photometry : std::uint8_t {
 /// bilinearly. Outside the range of the angles the intensity is 0.
 struct IntensityTable {
     Photometry type = Photometry::c; ///< Type of the goniophotometer.
-    /// Polar angles in degrees, within [0, 180]: at least two, in increasing order.
+    /// Polar angles in degrees, within [0, 180]: at least two, in increasing order, at
+    /// least 0.001 apart.
     std::vector<double> polar{};
-    /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, over
-    /// a range of at most 360.
+    /// Azimuths in degrees, within [-360, 720]: at least two, in increasing order, at
+    /// least 0.001 apart, over a range of at most 360.
     std::vector<double> azimuth{};
     /// Intensities in cd, at least 0. Those at all polar angles of the first azimuth
     /// come first.
@@ -108,7 +109,8 @@ namespace detail {
 
 /// The inverse of line_times_sine(): the x in [0, length] at which the integral is the
 /// fraction `part` of its value at x = length.
-/// \cost About four steps of Newton's method, safeguarded by bisection.
+/// \cost About five steps of Newton's method, safeguarded by bisection; more for a
+///       length below a degree.
 [[nodiscard]] inline double invert_line_times_sine(double c0, double c1, double theta0,
                                                    double length,
                                                    double part) noexcept {
@@ -338,7 +340,8 @@ template <std::floating_point T>
 
 /// Samples the unit direction of a photon, in proportion to the intensity: a cell of
 /// the table by its flux, then a polar angle within the cell, and then an azimuth.
-/// \cost Two binary searches, and about four steps of Newton's method.
+/// \cost Two binary searches, and about five steps of Newton's method; more if angles
+///       are less than a degree apart.
 // [sample_emission]
 template <std::floating_point T>
 [[nodiscard]] Vec3T<T> sample_emission(const GoniometricInSceneT<T>& light,

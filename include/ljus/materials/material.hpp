@@ -329,7 +329,7 @@ template <std::floating_point T>
 /// Whether a material scatters almost like a mirror or clear glass: it has a glossy
 /// lobe and no diffuse lobe, and a typical sample has a density above 1 per steradian,
 /// three times the highest density of a Lambertian surface. This holds for a GlossyT of
-/// roughness below 0.42, and for a RoughGlassT of index 1.5 and roughness below 0.85.
+/// roughness below 0.42, and for a RoughGlassT of index 1.5 and roughness below 0.84.
 /// \cost One call of sample() for a material with a glossy lobe.
 template <Material M>
 [[nodiscard]] bool nearly_specular(const M& m) noexcept {

@@ -77,7 +77,7 @@ sample(const MetalT<T>& metal, const Vec3T<T>& wo, const Vec3T<T>&,
     return specular_sample(reflect(wo), fresnel_conductor(cos_theta, metal.index));
 }
 
-/// Requires an index whose parts n and k are finite and at least 0.
+/// Requires an index whose parts n and k are within [0, 1e9].
 template <std::floating_point T>
 void check(const MetalT<T>& metal) {
     detail::require_conductor("metal.index", metal.index);

@@ -17,7 +17,7 @@ namespace ljus {
 enum class RoughModel : std::uint8_t {
     /// The formula of the report's program; its reflectance is at most 1.
     as_printed,
-    full,  ///< Oren and Nayar's full model of 1994; its reflectance is at most 1.05.
+    full,  ///< Oren and Nayar's full model of 1994; its reflectance is at most 1.06.
     fujii, ///< Fujii's first model; its reflectance is at most 1.03.
     /// Fujii's second model, with a roughness in [0, 1]; its reflectance is at most 1.
     fon

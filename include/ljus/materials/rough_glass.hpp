@@ -33,8 +33,8 @@ namespace ljus {
 
 /// The rough boundary between a transparent body and air. The side z > 0 is air, with
 /// index 1. Light that meets a second facet is lost. For index 1.5 and light along the
-/// normal, the lost fraction is 1 % from either side at roughness 0.3. At roughness 0.7
-/// it is 3 % from outside and 24 % from inside; at roughness 1 it is 11 % and 58 %.
+/// normal, the lost fraction is 0.1 % from outside and 1 % from inside at roughness
+/// 0.3. At roughness 0.7 it is 3 % and 24 %; at roughness 1 it is 11 % and 58 %.
 /// \cite walter2007
 template <std::floating_point T>
 struct RoughGlassT {

@@ -22,7 +22,7 @@ struct FrameT {
 using Frame = FrameT<float>; ///< FrameT in float.
 
 /// Makes a right-handed frame around a unit vector n \cite duff2017, accurate even near
-/// -z. If n is from glm::normalize(), each length is 1 to within 3 units of roundoff,
+/// -z. If n is from glm::normalize(), each length is 1 to within 4 units of roundoff,
 /// and each dot product of two vectors is 0 to within 8 units.
 /// \cost One division, no square root, no branch.
 template <std::floating_point T>

@@ -126,13 +126,15 @@ void require_finite(std::string_view what, const Vec3T<T>& value) {
     require(is_finite(value), what, value, "finite in every component");
 }
 
-/// Requires that a vector is finite and not 0, so that it has a direction; throws as
-/// require().
+/// Requires that a vector is finite and not 0 and, in double, between 1e-150 and 1e150
+/// long, so that it has a direction; throws as require().
 template <std::floating_point T>
 void require_direction(std::string_view what, const Vec3T<T>& value) {
     const Vec3T<WideT<T>> wide{value};
+    const bool has_length = is_finite(value) && !is_black(value);
     require(std::isnormal(glm::dot(wide, wide)), what, value,
-            "finite and not 0, for it gives a direction");
+            has_length ? "between 1e-150 and 1e150 long, for it gives a direction"
+                       : "finite and not 0, for it gives a direction");
 }
 
 /// Requires that a number is finite and above 0; throws as require().

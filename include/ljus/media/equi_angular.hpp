@@ -25,9 +25,10 @@ struct EquiAngularT {
     T opening = T(0); ///< Angle from the start to the end of the span.
 };
 
-/// Prepares equi-angular sampling of a finite span of a ray with a unit direction. A
-/// light on the ray would attract all points. The distance between light and ray
-/// therefore counts as at least a thousandth of the length of the span.
+/// Prepares equi-angular sampling of a span of a ray with a unit direction. The length
+/// of the span is finite and not 0. A light on the ray would attract all points. The
+/// distance between light and ray therefore counts as at least a thousandth of the
+/// length of the span.
 // [equi angular]
 template <std::floating_point T>
 [[nodiscard]] EquiAngularT<T> equi_angular(const RayT<T>& ray, const SpanT<T>& span,

@@ -23,8 +23,8 @@ namespace ljus {
 /// The complex index of a metal at three wavelengths, for red, green and blue.
 template <std::floating_point T>
 struct ConductorIndexT {
-    RgbT<T> n{T(1)}; ///< Real part, >= 0.
-    RgbT<T> k{T(0)}; ///< Imaginary part, the extinction coefficient, >= 0.
+    RgbT<T> n{T(1)}; ///< Real part, in [0, 1e9].
+    RgbT<T> k{T(0)}; ///< Imaginary part, the extinction coefficient, in [0, 1e9].
 };
 using ConductorIndex = ConductorIndexT<float>; ///< ConductorIndexT in float.
 
@@ -51,9 +51,9 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
 ///
 /// The root q is computed without cancellation.
 /// \param cos_theta  Cosine of the angle theta between ray and normal, in [0, 1].
-/// \param n          Real part of the index, >= 0.
-/// \param k          Imaginary part of the index, >= 0. If it is 0, R is
-///                   fresnel(cos_theta, 1, n).
+/// \param n          Real part of the index, in [0, 1e9].
+/// \param k          Imaginary part of the index, in [0, 1e9]. If it is 0, R is
+///                   fresnel(cos_theta, 1, n), but 1 for cos_theta = 0 and n = 1.
 /// \return R in [0, 1].
 /// \cost Two square roots (one of them a hypot) and three divisions.
 /// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}
@@ -63,8 +63,9 @@ template <std::floating_point T>
     const T c = cos_theta;
     const T sin2 = (T(1) - c) * (T(1) + c);
 
-    // q = a + ib, with q^2 = n^2 - k^2 - s^2 + 2ink.
-    const T real = (n - k) * (n + k) - sin2;
+    // q = a + ib, with q^2 = n^2 - k^2 - s^2 + 2ink. Here -s^2 is c^2 - 1.
+    const T real = sin2 < T(0.5) ? (n - k) * (n + k) - sin2
+                                 : c * c + (n - T(1)) * (n + T(1)) - k * k;
     const T half_imaginary = n * k;
     const T size = std::hypot(real, T(2) * half_imaginary);
     const T larger = std::sqrt((size + std::abs(real)) / T(2));
@@ -93,12 +94,16 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// Requires that n and k are finite and at least 0. `what` names the index in the
-/// message.
+/// Requires that n and k are within [0, 1e9]. `what` names the index in the message.
 template <std::floating_point T>
 void require_conductor(std::string_view what, const ConductorIndexT<T>& index) {
-    require_radiance(std::string(what) + ".n", index.n);
-    require_radiance(std::string(what) + ".k", index.k);
+    const auto check_part = [&](const char* name, const RgbT<T>& part) {
+        require_radiance(join({what, name}), part);
+        require(max_component(part) <= T(1e9), join({what, name}), part,
+                "at most 1e9 in every channel");
+    };
+    check_part(".n", index.n);
+    check_part(".k", index.k);
 }
 
 } // namespace detail

@@ -65,7 +65,7 @@ template <std::floating_point T>
 /// Abbe's number \f$ V = (n_d - 1)/(n_F - n_C) \f$, where n_d, n_F and n_C are the
 /// indices at 587.56, 486.13 and 656.27 nm. It is 64 for crown glass and 21 for heavy
 /// flint. A smaller number gives a wider spectrum; without dispersion the number is
-/// infinite.
+/// infinite, and NaN for an index of 1.
 template <std::floating_point T, template <typename> typename Law>
 [[nodiscard]] T abbe_number(const Law<T>& law) noexcept {
     return (refractive_index(law, line_d<T>) - T(1)) /

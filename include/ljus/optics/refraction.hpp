@@ -34,7 +34,7 @@ namespace ljus {
 namespace detail {
 
 /// The difference of two products without cancellation, by Kahan's form with FMA.
-/// \return a b - c d, within 1.5 units of roundoff.
+/// \return a b - c d, within 2 units of roundoff.
 template <std::floating_point T>
 [[nodiscard]] T difference_of_products(T a, T b, T c, T d) noexcept {
     const T cd = c * d;

@@ -17,7 +17,7 @@ namespace ljus {
 /// and the two waves interfere.
 ///
 /// `cos_theta` is the cosine between ray and normal outside the film, in [0, 1], and
-/// `index` is the index n of the film, above 0.
+/// `index` is the index n of the film, in [1e-9, 1e9].
 /// \{
 
 namespace detail {
