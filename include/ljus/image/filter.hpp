@@ -123,7 +123,8 @@ template <std::floating_point T>
 /// independent of each other. The mean of weight times radiance is the filtered pixel.
 /// \return The position and its weight. The weight is 1 for the box and the tent and
 ///         near 1 for the Gaussian. For Mitchell's filter it is a product of two
-///         numbers near 1.3 or -1.3.
+///         numbers near 1.3 or -1.3. One sample in 1000 lies near a zero of these
+///         filters, and has a weight of up to 9.2.
 /// \cost Nothing for the box. Per axis, the tent takes a square root, and the others 6
 ///       steps of a binary search.
 // [sample filter]

@@ -20,11 +20,11 @@ namespace ljus {
 /// \defgroup metrics Error metrics
 /// \brief Means over pixels and channels of linear radiance, computed in double.
 ///
-/// x is the picture and r the reference. All metrics are 0 for equal pictures, and NaN
-/// if a picture has a NaN. Only the estimate of bias^2 can be negative. The reference
-/// should come from another algorithm and seed, with at most a tenth of the error to be
-/// measured. State relMSE together with the block error, which shows bias, and the
-/// trimmed error, which leaves out fireflies.
+/// x is the picture and r the reference. All metrics are 0 for equal finite pictures,
+/// and NaN if a picture has a NaN. Only the estimate of bias^2 can be negative. The
+/// reference should come from another algorithm and seed, with at most a tenth of the
+/// error to be measured. State relMSE together with the block error, which shows bias,
+/// and the trimmed error, which leaves out fireflies.
 /// \{
 
 /// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
@@ -114,7 +114,8 @@ template <std::floating_point T, std::floating_point U>
         if (std::isnan(error)) return error;
     // The factor helps if the product was rounded to just below an integer.
     const double count = static_cast<double>(errors.size());
-    const auto worst = static_cast<std::ptrdiff_t>(dropped * count * (1.0 + 1e-12));
+    const auto worst = static_cast<std::ptrdiff_t>(
+        std::min(dropped * count * (1.0 + 1e-12), count - 1.0));
     const auto end = errors.end() - worst;
     if (worst > 0) std::nth_element(errors.begin(), end, errors.end());
     errors.erase(end, errors.end());
@@ -166,8 +167,10 @@ template <std::floating_point T, std::floating_point U>
     std::vector<double> biases(reference.pixels.size());
     std::vector<double> variances(reference.pixels.size());
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-        RgbT<double> mean(0.0);
-        for (const ImageT<T>& run : runs) mean += RgbT<double>(run.pixels[i]) / count;
+        const RgbT<double> first(runs.front().pixels[i]); // exact for equal runs
+        RgbT<double> mean = first;
+        for (const ImageT<T>& run : runs)
+            mean += (RgbT<double>(run.pixels[i]) - first) / count;
         double squares = 0.0;
         for (const ImageT<T>& run : runs) {
             const RgbT<double> difference = RgbT<double>(run.pixels[i]) - mean;
@@ -211,8 +214,9 @@ template <std::floating_point T>
     BlockStatistics result{make_image<double>(width, height),
                            make_image<double>(width, height), runs.size()};
     for (std::size_t i = 0; i < result.mean.pixels.size(); ++i) {
-        RgbT<double>& mean = result.mean.pixels[i];
-        for (const auto& block : blocks) mean += block.pixels[i] / count;
+        const RgbT<double>& first = blocks.front().pixels[i]; // exact for equal runs
+        RgbT<double>& mean = result.mean.pixels[i] = first;
+        for (const auto& block : blocks) mean += (block.pixels[i] - first) / count;
         RgbT<double> squares(0.0);
         for (const auto& block : blocks) {
             const RgbT<double> difference = block.pixels[i] - mean;

@@ -547,7 +547,26 @@ private:
         return {.center = all.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
 
+    // Refuses an order that does not list each object and each light once.
+    [[gnu::cold]] void check_order(const S& scene) const {
+        std::array<std::vector<std::size_t>, 2> sizes; // of objects, of lights
+        for (const auto& list : objects_) sizes[0].push_back(list.size());
+        const auto add = [&](const auto& list) { sizes[1].push_back(list.size()); };
+        detail::each_array(scene.lights, add);
+        std::array<std::vector<std::size_t>, 2> listed;
+        for (const int kind : {0, 1}) listed[kind].resize(sizes[kind].size());
+        bool in_turn = true; // as add() lists them
+        for (const auto& [type, index, is_light] : scene.order) {
+            auto& next = listed[is_light];
+            in_turn = in_turn && type < next.size() && index == next[type]++;
+        }
+        require(in_turn && listed == sizes, "the number of entries in Scene::order",
+                static_cast<long long>(scene.order.size()),
+                "one for each shape and light: add them by add()");
+    }
+
     [[gnu::cold]] void close_lights(const S& scene) {
+        check_order(scene);
         const SphereT<Scalar> sphere = around();
         const auto keep = [&](auto& to, const auto& from) {
             for (const auto& light : from) {
