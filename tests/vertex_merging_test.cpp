@@ -19,6 +19,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/rough_glass.hpp"
+#include "ljus/media/fog.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/vertex_merging.hpp"

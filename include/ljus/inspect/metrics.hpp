@@ -72,7 +72,7 @@ std::vector<double> relative_errors(const ImageT<T>& image, const ImageT<U>& ref
 ///
 /// *Trap*: a few highlights dominate the metric, and dark regions hardly count.
 /// \return The error, in units of radiance.
-/// \throws std::invalid_argument  as require_same_size().
+/// \throws std::invalid_argument  if the sizes differ, or as check(image).
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rmse(const ImageT<T>& image, const ImageT<U>& reference) {
     const auto square = [](double x, double r) { return (x - r) * (x - r); };
@@ -87,7 +87,7 @@ template <std::floating_point T, std::floating_point U>
 /// can values from tools that divide by (r + epsilon)^2.
 /// \return Dimensionless; about 1 for a black picture of a scene that is bright
 ///         throughout.
-/// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
+/// \throws std::invalid_argument  as rmse(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                              double epsilon = default_epsilon) {
@@ -156,7 +156,7 @@ struct BiasVariance {
 /// *Trap*: the estimate of bias^2 for a method without bias may be negative by chance.
 /// The estimate is not clamped to 0, because clamping would bias it.
 /// \return Both terms, in units of radiance squared.
-/// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
+/// \throws std::invalid_argument  for fewer than 2 runs, or as rmse().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] BiasVariance bias_variance(const std::vector<ImageT<T>>& runs,
                                          const ImageT<U>& reference) {
@@ -198,7 +198,7 @@ struct BlockStatistics {
 /// *Trap*: the standard error is itself an estimate. Its relative error is
 /// 1/sqrt(2(M - 1)): 71 % with two runs, 18 % with 16.
 /// \return Means and standard errors, in units of radiance.
-/// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size() and
+/// \throws std::invalid_argument  for fewer than 2 runs, or as rmse() and
 ///         block_means().
 template <std::floating_point T>
 [[nodiscard]] BlockStatistics block_statistics(const std::vector<ImageT<T>>& runs,

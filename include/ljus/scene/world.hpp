@@ -202,7 +202,7 @@ public:
 
     /// Closes a scene. A scene without instances may be copied instead of moved.
     /// \throws std::invalid_argument  if the scene contains data that add() would
-    ///         refuse, or if its arrays are inconsistent.
+    ///         refuse, or a black light, or if its arrays are inconsistent.
     [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
           prototypes_(std::move(scene.prototypes)), fog_(std::move(scene.media)) {
