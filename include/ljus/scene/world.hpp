@@ -554,7 +554,7 @@ private:
         const auto add = [&](const auto& list) { sizes[1].push_back(list.size()); };
         detail::each_array(scene.lights, add);
         std::array<std::vector<std::size_t>, 2> listed;
-        for (const int kind : {0, 1}) listed[kind].resize(sizes[kind].size());
+        for (const std::size_t kind : {0u, 1u}) listed[kind].resize(sizes[kind].size());
         bool in_turn = true; // as add() lists them
         for (const auto& [type, index, is_light] : scene.order) {
             auto& next = listed[is_light];
