@@ -245,7 +245,8 @@ public:
                glm::all(glm::lessThanEqual(point, media_.high));
     }
     /// Whether the bounding box of an absorbing body overlaps that of another
-    /// transparent body, so that a path that leaves one may still be in the other.
+    /// transparent body, so that a path that leaves one may still be in the other. Also
+    /// true if there are absorbing bodies and more than 4096 transparent ones.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// Whether the scene lists a type of material that may have a priority.
     static constexpr bool lists_priorities =
