@@ -19,6 +19,7 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/rough_glass.hpp"
+#include "ljus/media/fog.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/vertex_merging.hpp"
@@ -541,4 +542,10 @@ TEST_CASE("vertex merging: what it cannot carry is refused") {
     const World moving(make_scene(
         placed(Moving<Sphere>{.shape{}, .displacement{1, 0, 0}}, Lambertian{})));
     CHECK(refusal([&] { VertexMerger merger(moving); }) != "");
+
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<>, Media<Fog<Sphere>>> foggy;
+    foggy.add(Fog<Sphere>{.scattering = Rgb{1}});
+    const World fog(std::move(foggy));
+    CHECK(refusal([&] { (void)trace_light_paths(fog, {}); }).find("has fog") !=
+          std::string::npos);
 }

@@ -139,9 +139,10 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 }
 // [light path]
 
-/// Refuses lights, shapes and materials that light paths do not support.
+/// Refuses lights, shapes, materials and media that light paths do not support.
 template <AnyWorld W>
 [[gnu::cold]] void require_joints(const W& world) {
+    require_no_fog(world, "joined light paths");
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
         require(
             world.visit_light(i, []<typename L>(const L&) { return has_light_end<L>; }),
@@ -168,7 +169,8 @@ template <AnyWorld W>
 /// \param settings  The settings.
 /// \return The paths, the same for any number of threads; empty if there is no light.
 /// \throws std::invalid_argument  if a setting is out of range, a light is neither a
-///         lamp nor a point nor a spot, a shape moves, or a material disperses light.
+///         lamp nor a point nor a spot, a shape moves, a material disperses light, or
+///         the scene has fog.
 /// \cost About 350 bytes per vertex.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] LightPathsT<typename W::Scalar>

@@ -417,8 +417,9 @@ private:
         else if (passes_.general_map && !passes_.irradiance)
             maps_.remarks += detail::radius_remark(
                 "general_estimate", settings_.general_estimate, maps_.general);
-        check(settings_.caustics_estimate); // a chosen radius may be out of range
-        check(settings_.general_estimate);
+        // A chosen radius may be out of range.
+        check(settings_.caustics_estimate, "caustics_estimate");
+        check(settings_.general_estimate, "general_estimate");
     }
 
     // Refuses settings that are out of range, or not allowed here.
