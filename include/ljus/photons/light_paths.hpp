@@ -147,7 +147,8 @@ template <AnyWorld W>
         require(
             world.visit_light(i, []<typename L>(const L&) { return has_light_end<L>; }),
             "the number of a light", static_cast<long long>(i),
-            "that of a lamp, a point or a spot, where a light path can begin");
+            "that of a point, a spot, a goniometric light or a lamp without a picture, "
+            "where a light path can begin");
     const auto rest = []<typename G>(const std::vector<G>& list) {
         require(!is_moving<G> || list.empty(), "the number of moving shapes",
                 static_cast<long long>(list.size()), "0, or paths differ in time");
@@ -168,9 +169,9 @@ template <AnyWorld W>
 /// \param world     The closed scene.
 /// \param settings  The settings.
 /// \return The paths, the same for any number of threads; empty if there is no light.
-/// \throws std::invalid_argument  if a setting is out of range, a light is neither a
-///         lamp nor a point nor a spot, a shape moves, a material disperses light, or
-///         the scene has fog.
+/// \throws std::invalid_argument  if a setting is out of range, a light is a sun, an
+///         environment or a lamp with a picture, a shape moves, a material disperses
+///         light, or the scene has fog.
 /// \cost About 350 bytes per vertex.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] LightPathsT<typename W::Scalar>
