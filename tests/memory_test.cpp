@@ -1,7 +1,7 @@
 // concept: photon_map
 // alone: looks at the heap in operator new and delete
 /// \file memory_test.cpp
-/// \brief The most memory that photons, pixels and triangles take at a time.
+/// \brief The most memory that photons, pixels, boxes and triangles take at a time.
 
 #include <doctest/doctest.h>
 
@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 
+#include "ljus/accel/bvh.hpp"
 #include "ljus/io/load_obj.hpp"
 #include "ljus/io/load_stl.hpp"
 #include "ljus/photons/photon_map.hpp"
@@ -197,6 +198,20 @@ TEST_CASE("memory: adaptive rays add 24 bytes for each further pixel") {
     const double small = peak(300), large = peak(1200);
     CHECK(large - small < 25.0 * 300 * 900);
     CHECK(small - 24.0 * 300 * 300 < 6e6); // the rows in work
+}
+
+TEST_CASE("memory: a box takes at most 104 bytes while its tree is built") {
+    constexpr int count = 100'000;
+    std::vector<Box> boxes;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 corner{float(i), std::sin(float(i)), std::cos(1.3f * float(i))};
+        boxes.push_back({corner, corner + 0.5f});
+    }
+    Bvh tree;
+    const double peak =
+        peak_of([&] { tree = Bvh(boxes, {.leaf_size = 1, .threads = 1}); });
+    CHECK(tree.nodes().size() == 2 * count - 1); // the most that there can be
+    CHECK(peak < 105.0 * count);
 }
 
 TEST_CASE("memory: a triangle takes at most 150 bytes while its file is read") {

@@ -124,6 +124,11 @@ TEST_CASE_TEMPLATE("sampling_pattern: any count has its points, within the pixel
             CAPTURE(count);
             CHECK(inside);
         }
+    // A product of the columns and the rows of so many points has 32 bits.
+    constexpr int most = std::numeric_limits<int>::max();
+    constexpr Vec2T<double> last = spread(make_pattern(Sampling::multi_jittered, most),
+                                          most - 1, 9, Vec2T<double>{0.5, 0.5});
+    CHECK(last.x < 1);
 }
 
 TEST_CASE(

@@ -81,7 +81,7 @@ void check(const MeshDataT<T>& data) {
 /// triangles, this mean stays the same \cite thurmer1998. Vertices with different
 /// indices stay separate, even at the same position, so that edges between them stay
 /// sharp. A vertex that belongs to no triangle with an area gets (0, 0, 0), which
-/// counts as no normal.
+/// counts as no normal. The triangles must be as check() requires.
 /// \cost O(n) for n triangles.
 template <std::floating_point T>
 void smooth_normals(MeshDataT<T>& data) {

@@ -56,8 +56,9 @@ struct BoxRayT {
 /// units of roundoff. The test of a box alone needs 3 units \cite ize2013.
 /// \param ray  The ray, whose range is ignored.
 /// \param all  A box around all boxes to be tested.
-/// \return Nothing if the square of the direction's length or of the distance to `all`
-///         is outside the range of T; the shapes must then be tested without boxes.
+/// \return Nothing if the square of the direction's length is outside the range of T,
+///         or if that of the distance to `all` overflows; the shapes must then be
+///         tested without boxes.
 // [box_ray]
 template <std::floating_point T>
 [[nodiscard]] std::optional<BoxRayT<T>> box_ray(const RayT<T>& ray,

@@ -167,7 +167,8 @@ template <typename S, std::floating_point T>
         return std::nullopt;
 }
 
-/// The u for which sample_light() returns the centre of the lamp.
+/// The u for which sample_light() returns the centre of a quad or a disc, or the point
+/// of a sphere that is nearest to `from`.
 template <typename S>
 [[nodiscard]] auto center_sample(const AreaLightT<S>& light) noexcept {
     return center_sample(light.shape);

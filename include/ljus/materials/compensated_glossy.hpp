@@ -64,7 +64,7 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
 /// Adds multiple scattering to a rough mirror. With roughness 0 the material scatters
 /// like the mirror itself.
 /// \throws std::invalid_argument  as check(first).
-/// \cost That of detail::bake_energy_loss(): about 50 ms.
+/// \cost That of detail::bake_energy_loss(): about 20 ms.
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);

@@ -426,7 +426,7 @@ template <std::floating_point T>
 /// \return The sample with a weight of 1, which is right for the BRDF 1/pi. A caller
 ///         with another BRDF f sets the weight to pi f. Nothing if `wo` is parallel to
 ///         the surface, or if `which` lacks Lobes::diffuse.
-/// \cost One sine, one cosine, one square root.
+/// \cost One sine, one cosine, one square root and one division.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

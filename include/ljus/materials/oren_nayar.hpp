@@ -101,7 +101,7 @@ template <std::floating_point T>
 
 /// Samples a direction by sample_cosine_lobe(). The weight is the albedo times
 /// detail::oren_nayar_ratio().
-/// \cost One sine, one cosine, one square root and three divisions.
+/// \cost One sine, one cosine, one square root and four divisions.
 /// \report{Section 3.2.4}
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>

@@ -80,7 +80,7 @@ template <std::floating_point T, std::size_t N>
 /// The root between a and b of a polynomial p that has opposite signs at a and at b, by
 /// Newton's method. If a step would leave the interval, or would be more than half as
 /// long as the last step, the interval is bisected instead.
-/// \return The root. Where p is steep, the error is at most half the machine epsilon.
+/// \return The root. Where p is steep, the error is about half the machine epsilon.
 /// \cost At most 2 steps per bit of T's mantissa.
 // [root_between]
 template <std::floating_point T, std::size_t N>

@@ -172,7 +172,7 @@ template <std::floating_point T>
     const auto m = static_cast<std::uint32_t>(pattern.strata.columns);
     const auto n = static_cast<std::uint32_t>(pattern.strata.rows);
     const auto i = static_cast<std::uint32_t>(number);
-    const bool broken = pattern.points < pattern.strata.columns * pattern.strata.rows;
+    const bool broken = static_cast<std::uint32_t>(pattern.points) < m * n;
     const std::uint32_t strip =
         broken ? strip_of_broken(pattern, i, key)
                : shuffled(i % m, m, key) * n + shuffled(i / m, n, ~key);

@@ -234,8 +234,10 @@ public:
                             grow(parts[i], 0, jobs[i].range, nullptr);
                         },
                         {.threads = settings_.threads});
-        for (std::size_t i = 0; i < jobs.size(); ++i)
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
             append(tree.nodes, jobs[i].node, parts[i]);
+            parts[i] = {}; // or all nodes would be in memory twice
+        }
         tree.primitive_ids = std::vector<std::uint32_t>(refs_.size());
         for (std::size_t i = 0; i < refs_.size(); ++i)
             tree.primitive_ids[i] = refs_[i].id;
