@@ -13,7 +13,9 @@
 /// beside the picture follow from that list.
 
 #include <algorithm>
+#include <array>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -31,6 +33,7 @@
 #include "common/terminal.hpp"
 #include "ljus/inspect/census.hpp"
 #include "ljus/inspect/explain.hpp"
+#include "ljus/inspect/metrics.hpp"
 #include "ljus/inspect/photon_dots.hpp"
 #include "ljus/inspect/survey.hpp"
 #include "ljus/io/load_json.hpp"
@@ -271,6 +274,23 @@ void save_result(const Request& r, nlohmann::ordered_json json,
     save_file(r.file + ".json", Bytes(text.begin(), text.end()));
 }
 
+/// A remark on a picture so dim that relMSE gives its noise little weight.
+/// \return Empty unless the squared mean radiance is far below the epsilon of relMSE.
+template <std::floating_point T>
+std::string dim_remark(const ImageT<T>& image) {
+    double mean = 0;
+    for (const RgbT<T>& color : image.pixels)
+        mean += double(luminance(color)) / double(image.pixels.size());
+    if (!(mean > 0) || mean * mean > default_epsilon / 10) return {};
+    std::array<char, 256> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the mean radiance of the picture is %.3g, but --error, --seconds "
+                  "and --more-rays give little weight to noise in pixels below %.3g: "
+                  "multiply the light of all lamps by %.3g\n",
+                  mean, std::sqrt(default_epsilon), 1 / mean);
+    return text.data();
+}
+
 /// Prints a line about the work that begins.
 template <AnyWorld W>
 void print_heading(const W& world, std::string name, const Request& r) {
@@ -362,6 +382,9 @@ void run_request(examples::CommandLine& line, Request& r,
         std::all_of(colors.begin(), colors.end(), is_black<T>))
         tell("every pixel is black: " + why_black(r, needs(world)) + "\n", r);
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
+    if (whole && !examples::first_hit_of(r.renderer) &&
+        (promised(r.promise) || r.adaptive.more > 0))
+        tell(dim_remark(result.rendered.image), r);
     save_result(r, to_json(line, r), result, seconds);
     examples::when_stopped_say("'" + r.file + "' is saved");
     if (r.quiet) return;

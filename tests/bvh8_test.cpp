@@ -152,6 +152,9 @@ TEST_CASE("wide bvh: rays that are no rays meet nothing; absurd ones are not los
     CHECK_FALSE(Bvh8{}.any(Ray{}, [](std::uint32_t) { return true; }));
     CHECK_THROWS_AS(Bvh8(std::vector<Box>{}, BvhSettings{.leaf_size = 17}),
                     std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Bvh8(std::vector<Box>{}, BvhSettings{}, 0),
+                         "multiple is 0; it must be at least 1.",
+                         std::invalid_argument);
 }
 
 TEST_CASE(

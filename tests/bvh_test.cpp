@@ -508,4 +508,9 @@ TEST_CASE("bvh: how a tree is built if nothing is said") {
                          "at_a_time is 0; it must be at least 1.",
                          std::invalid_argument);
     CHECK_NOTHROW(Bvh(boxes, {.leaf_size = 1, .at_a_time = 1}));
+    // No ray would enter it.
+    CHECK_THROWS_WITH_AS(Bvh(std::vector{boxes[0], Box{{0, 2, 0}, {1, 1, 1}}}),
+                         "a box's low corner is (0, 2, 0); it must be at most its high "
+                         "corner.",
+                         std::invalid_argument);
 }

@@ -762,13 +762,20 @@ TEST_CASE("final gathering: settings that give no picture are refused by a sente
         CHECK_FALSE(sentence.empty());
         refused(change, sentence);
     };
-    const auto of_caustics = [](const auto& s) { check(s.caustics_estimate); };
-    const auto of_general = [](const auto& s) { check(s.general_estimate); };
+    const auto of_caustics = [](const auto& s) {
+        check(s.caustics_estimate, "caustics_estimate");
+    };
+    const auto of_general = [](const auto& s) {
+        check(s.general_estimate, "general_estimate");
+    };
     passed_on([](auto& s) { s.general_estimate.radius = -0.1f; }, of_general);
     passed_on([](auto& s) { s.general_estimate.thickness = 0; }, of_general);
     passed_on([](auto& s) { s.caustics_estimate.nearest = 1; }, of_caustics);
     passed_on([](auto& s) { s.caustics_estimate.radius = -0.1f; }, of_caustics);
     passed_on([](auto& s) { s.skip.risk = 0; }, [](const auto& s) { check(s.skip); });
+    refused([](auto& s) { s.caustics_estimate.nearest = 513; }, // not s.gather.nearest
+            "caustics_estimate.nearest is 513; it must be 0 for all within the radius, "
+            "or 2 to 512 (one photon sets the radius).");
     // The last that are none.
     PhotonMappingSettings least{.max_depth = 1, .indirect = IndirectLight::gather};
     least.caustics.photons = least.general.photons = 0;

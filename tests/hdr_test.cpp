@@ -320,6 +320,7 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     for (const std::string& header :
          {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
           start + "FORMAT=32-bit_rle_luv\n\n-Y 2 +X 3\n",
+          start + "FORMAT=foo32-bit_rle_rgbe\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=-1\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 -X 3\n",
           start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",

@@ -33,9 +33,17 @@ TEST_CASE("metrics: all are 0 for equal images, of float and of double") {
     CHECK(ljus::rel_mse(a, b) == 0.0);
     CHECK(ljus::trimmed_rel_mse(a, b) == 0.0);
     CHECK(ljus::block_error(a, b) == 0.0);
-    const ljus::BiasVariance split = ljus::bias_variance(std::vector{a, a}, b);
-    CHECK(split.bias_squared == 0.0);
-    CHECK(split.variance == 0.0);
+    const auto c = ljus::make_image<double>(5, 5, {0.1, 0.3, 1.7}); // rounded
+    const auto black = ljus::make_image<double>(5, 5);
+    for (const std::size_t runs : {2u, 7u, 26u, 100u}) {
+        const std::vector<ImageD> equal(runs, c);
+        const ljus::BiasVariance split = ljus::bias_variance(equal, c);
+        CHECK(split.bias_squared == 0.0);
+        CHECK(split.variance == 0.0);
+        for (const double off : ljus::block_deviations(equal, c)) CHECK(off == 0.0);
+        for (const double off : ljus::block_deviations(equal, black))
+            CHECK(std::isinf(off));
+    }
 }
 
 TEST_CASE("metrics: their formulas, for one pixel written out") {
@@ -100,6 +108,9 @@ TEST_CASE("metrics: a firefly counts for the whole, but not for the trimmed rest
     const ImageD one = ljus::make_image<double>(1, 1, RgbD(2.0));
     CHECK(ljus::trimmed_rel_mse(one, ljus::make_image<double>(1, 1, RgbD(1.0))) ==
           Approx(1 / 1.01));
+    // One is always left.
+    CHECK(ljus::trimmed_rel_mse(one, ljus::make_image<double>(1, 1, RgbD(1.0)),
+                                std::nextafter(1.0, 0.0)) == Approx(1 / 1.01));
 }
 
 TEST_CASE("metrics: bias and variance of runs with known ones") {

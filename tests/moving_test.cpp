@@ -107,6 +107,9 @@ TEST_CASE_TEMPLATE("moving: a shape is where its time says, and in its bounds", 
                 sample_area(moving.shape, u).position);
     }
     CHECK(hits > 800);
+    // A displacement whose square is no float.
+    const Moving<S> fast{any(), {1e25f, 0, 0}};
+    CHECK(bounding_sphere(fast).radius == doctest::Approx(5e24));
 
     Moving<S> bad{any(), {1, 2, 3}};
     CHECK_NOTHROW(check(bad));

@@ -774,7 +774,7 @@ TEST_CASE("photon mapping: a chosen radius that is out of range is refused") {
     };
     const double radius = made(1);
     CHECK(made(1e-14) == doctest::Approx(1e-14 * radius).epsilon(1e-5));
-    CHECK(refusal([&] { (void)made(1e-18); }).find("gather.radius is ") == 0);
+    CHECK(refusal([&] { (void)made(1e-18); }).find("general_estimate.radius is ") == 0);
 }
 
 TEST_CASE("photon mapping: caustics photons that were traced elsewhere") {

@@ -19,10 +19,12 @@
 #include "ljus/materials/mirror.hpp"
 #include "ljus/materials/mixture.hpp"
 #include "ljus/materials/rough_glass.hpp"
+#include "ljus/media/fog.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "ljus/render/vertex_merging.hpp"
 #include "ljus/scene/make_scene.hpp"
+#include "ljus/scene/picture_lamp.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/box_sides.hpp"
 #include "support/refusal.hpp"
@@ -537,8 +539,19 @@ TEST_CASE("vertex merging: what it cannot carry is refused") {
     const auto by_sun = refusal([&] { VertexMerger merger(outside); });
     CAPTURE(by_sun);
     CHECK(by_sun.find("light is 1") != std::string::npos);
+    const World window(make_scene(
+        placed(Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, PictureLamp{}, Rgb{1})));
+    const auto by_picture = refusal([&] { VertexMerger merger(window); });
+    CAPTURE(by_picture);
+    CHECK(by_picture.find("a lamp without a picture") != std::string::npos);
 
     const World moving(make_scene(
         placed(Moving<Sphere>{.shape{}, .displacement{1, 0, 0}}, Lambertian{})));
     CHECK(refusal([&] { VertexMerger merger(moving); }) != "");
+
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<>, Media<Fog<Sphere>>> foggy;
+    foggy.add(Fog<Sphere>{.scattering = Rgb{1}});
+    const World fog(std::move(foggy));
+    CHECK(refusal([&] { (void)trace_light_paths(fog, {}); }).find("has fog") !=
+          std::string::npos);
 }

@@ -562,8 +562,28 @@ TEST_CASE("world: what was changed in place is checked, what grew past add() ref
     CHECK(close(negative).find("emission is (-1, -1, -1);") == 0);
     Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<PointLight>> bulbs;
     bulbs.add(PointLight{});
-    std::get<0>(bulbs.lights)[0].intensity = Rgb{-1};
-    CHECK(close(bulbs).find("point light.intensity is (-1, -1, -1);") == 0);
+    auto dark = bulbs;
+    std::get<0>(dark.lights)[0].intensity = Rgb{-1};
+    CHECK(close(dark).find("point light.intensity is (-1, -1, -1);") == 0);
+    // The order lists each object and each light once.
+    const auto not_listed = [&](auto scene, const auto& change) {
+        change(scene);
+        CHECK(close(scene) == "the number of entries in Scene::order is " +
+                                  std::to_string(scene.order.size()) +
+                                  "; it must be one for each shape and light: add them "
+                                  "by add().");
+    };
+    not_listed(bulbs, [](auto& s) { std::get<0>(s.lights).push_back(PointLight{}); });
+    not_listed(bulbs, [](auto& s) { std::get<0>(s.lights).clear(); });
+    not_listed(bulbs, [](auto& s) { s.order.push_back(s.order[0]); });
+    not_listed(bulbs, [](auto& s) { s.order[0].index = 1; });
+    not_listed(bulbs, [](auto& s) { s.order[0].type = 1; });
+    not_listed(sound, [](auto& s) { s.order[0].type = 1; });
+    not_listed(sound, [](auto& s) { s.order.clear(); });
+    not_listed(sound, [](auto& s) {
+        std::get<0>(s.shapes).push_back(std::get<0>(s.shapes)[0]);
+        s.objects[0].push_back({.material = {0, 7}});
+    });
     // An object whose emission was set in place is a light as any other.
     auto shining = sound;
     shining.objects[0][0].emission = Rgb{1};

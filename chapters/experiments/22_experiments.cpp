@@ -60,8 +60,8 @@ void add_dots(Image& image, const Room<S>& room, const std::vector<Photon>& phot
 
 // --- Roulette -------------------------------------------------------------------------
 
-/// The roulette of the report's program: survivors are not divided by the
-/// probability.
+/// As in the report's program, survivors are not divided by the probability. (There
+/// it is proportional to the flux.)
 // [uncompensated]
 std::optional<Rgb> play_uncompensated(Rgb flux, Rgb weight, float u) {
     const Rgb reflected = flux * weight;
@@ -159,7 +159,7 @@ void compare_roulettes(const examples::Options& options, long long paths) {
              examples::text(100 * (arrivals.total / exact - 1), "%+.1f %%")});
     };
     row("by roulette, divided by the probability", fair);
-    row("by roulette, not divided (the report's program)", unfair);
+    row("by roulette, not divided (as in the report's program)", unfair);
     row("when it carries less than a hundredth", none);
     table.rows.push_back({"never (exact)", "", examples::text(exact, "%.3f"), ""});
     examples::show_table(options, table);

@@ -470,10 +470,10 @@ void fast_picture(const examples::Options& options) {
         room, fast(options.width, options.seed, options.threads),
         {.width = options.width,
          .height = options.height,
-         .samples = 2,
+         .samples = 1,
          .seed = options.seed,
          .threads = options.threads},
-        8);
+        preset_rays(Preset::fast).more);
     save_png(image, options.path("irradiance_cache-fast.png"));
 }
 

@@ -150,7 +150,7 @@ Line save_lines(const Times& measured, const FirstPass& alone, const FirstPass& 
     add("second pass, " + several, fit_line(measured.rays, measured.many), pixels);
     once("photons, 1 thread", alone.emission.wall);
     once("photons, " + several, shared.emission.wall);
-    once("build the k-d tree, 1 thread", alone.tree.wall);
+    once("make the photon map", alone.tree.wall);
     save_table(options.path(""), lines);
     return loop;
 }

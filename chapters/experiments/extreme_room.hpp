@@ -105,7 +105,7 @@ ljus::MaterialId add_material(S& scene, const Extreme& how,
                           .absorption = ljus::RgbT<T>(mixture.absorption / how.scale)});
 }
 
-/// The room of figures 1 and 15, taken to an extreme: its numbers are worked out in
+/// The room of figure 1, taken to an extreme: its numbers are worked out in
 /// double, and rounded once. All lamps have the flux of the report's.
 /// \tparam T    The precision of the scene.
 /// \param how   What is extreme.

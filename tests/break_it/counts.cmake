@@ -12,6 +12,6 @@ ljus_break_it(NAME counts-cut-mirrors HEADER render/path_tracing.hpp TEST counts
 
 # or is counted though a map answers for it.
 ljus_break_it(NAME counts-cut-mapped HEADER render/photon_mapping.hpp TEST counts
-    FROM "detail::cut_if(has(parts, open), context.counts);"
+    FROM "detail::cut_if(has(parts, plan.open), context.counts);"
     TO   "detail::cut_if(true, context.counts);"
     CASES "counts: what the depth cuts*")

@@ -155,7 +155,7 @@ ljus_break_it(NAME final-gathering-gloss-broad HEADER render/final_gathering.hpp
 # Where the camera's path meets gloss behind a matt surface, irradiance answers for it.
 ljus_break_it(NAME final-gathering-gloss-matt HEADER render/photon_mapping.hpp
     TEST final_gathering
-    FROM "                        gather = false;
+    FROM "            plan.gather = false;
 "
     TO   ""
     CASES "final gathering: a white room*")
@@ -170,8 +170,8 @@ ljus_break_it(NAME final-gathering-starved HEADER render/final_gathering.hpp
 # Paths of the camera end where nothing is known.
 ljus_break_it(NAME final-gathering-starved-camera HEADER render/photon_mapping.hpp
     TEST final_gathering
-    FROM "(has(parts, Lobes::glossy) || mapper.maps().starved)"
-    TO   "has(parts, Lobes::glossy)"
+    FROM "(has(lobes(material), Lobes::glossy) || mapper.maps().starved)"
+    TO   "has(lobes(material), Lobes::glossy)"
     CASES "final gathering: with too few photons*")
 
 # All photons count, though only those that have landed before are looked up.
@@ -186,8 +186,8 @@ ljus_break_it(NAME final-gathering-starved-count HEADER render/photon_mapping.hp
 # Its lamps are asked again, though the caustics map has told.
 ljus_break_it(NAME final-gathering-gloss-again HEADER render/photon_mapping.hpp
     TEST final_gathering
-    FROM "mirror = gloss_mirrors &&"
-    TO   "mirror = false &&"
+    FROM "gloss_mirrors && nearly_specular_at("
+    TO   "false && nearly_specular_at("
     CASES "final gathering: a ceiling over*")
 
 # Photons do not go on by gloss: a sun's light by it is in no map.

@@ -36,7 +36,7 @@ ljus_break_it(NAME hdr-color-correction HEADER io/hdr.hpp TEST hdr
 
 # Colours of other primaries are taken for those of sRGB.
 ljus_break_it(NAME hdr-primaries HEADER io/hdr.hpp TEST hdr
-    FROM "detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());"
+    FROM "detail::convert(image.pixels, header.to_srgb, std::numeric_limits<T>::max());"
     TO   ""
     CASES "hdr: the colour correction*")
 

@@ -10,3 +10,9 @@ ljus_break_it(NAME photon-mapping-mirrored-lamp HEADER path/continue_path.hpp
     FROM "(next.specular ? path.met_specular : path.met_diffuse) = true;"
     TO   "path.met_diffuse = true;"
     CASES "path log: each term*")
+
+# A path that split off tells its last vertex once for each of its letters.
+ljus_break_it(NAME path-log-split HEADER path/path_log.hpp TEST path_log
+    FROM "log.letters += 'S';"
+    TO   "log_vertex(log, path);"
+    CASES "path log: a vertex behind*")

@@ -163,7 +163,7 @@ ljus_break_it(NAME photon-mapping-faint HEADER render/photon_mapping.hpp
 # A radius that the mapper chooses may be too small for a float's square.
 ljus_break_it(NAME photon_mapping-chosen-radius HEADER render/photon_mapping.hpp
     TEST photon_mapping_steps
-    FROM "        check(settings_.general_estimate);"
+    FROM "        check(settings_.general_estimate, \"general_estimate\");"
     TO   "        (void)0;"
     CASES "photon mapping: a chosen radius*")
 

@@ -22,6 +22,12 @@ ljus_break_it(NAME radiance-filter-inversion HEADER image/filter.hpp TEST filter
     TO   "side * v"
     CASES "filter: places drawn*")
 
+# The density of a cell by its middle, which may lie at a zero of the filter.
+ljus_break_it(NAME radiance-filter-middles HEADER image/filter.hpp TEST filter
+    FROM "cdf[i] + size_at(i) + size_at(i + 1)"
+    TO   "cdf[i] + std::abs(filter_weight(filter, (double(i) + 0.5) / double(cells) * filter_radius(filter)))"
+    CASES "filter: places are drawn as often*")
+
 # The whole picture moved by half a pixel.
 ljus_break_it(NAME radiance-filter-middle HEADER image/filter.hpp TEST filter
     FROM ".place = T(0.5) + Vec2T<T>{x.x, y.x}"

@@ -73,15 +73,15 @@ ljus_break_it(NAME rough_glass-verdict HEADER render/photon_mapping.hpp
 # No ray goes on through glass on whose outside no photon is near.
 ljus_break_it(NAME rough_glass-bounce HEADER render/photon_mapping.hpp
     TEST rough_glass_scenes
-    FROM "if (has(which, Lobes::diffuse) && !through &&"
+    FROM "if (has(which, Lobes::diffuse) && !scatters_through(material) &&"
     TO   "if (has(which, Lobes::diffuse) &&"
     CASES "rough glass scenes: photons of one side*")
 
 # Paths end on the far side of the glass that they enter.
 ljus_break_it(NAME rough_glass-gather HEADER render/photon_mapping.hpp
     TEST rough_glass_scenes
-    FROM "bool gather = second && !through"
-    TO   "bool gather = second"
+    FROM "{.gather = second && !through}"
+    TO   "{.gather = second}"
     CASES "rough glass scenes: no photon map*")
 
 # Photons count on glass, and once more behind it.

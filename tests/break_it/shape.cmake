@@ -11,7 +11,7 @@ ljus_break_it(NAME shape-grain HEADER geometry/sphere.hpp TEST shape
 
 # Of a moving shape only the middle of its way is bounded.
 ljus_break_it(NAME shape-moving-bound HEADER geometry/moving.hpp TEST moving
-    FROM "sphere.radius += glm::length(moving.displacement) / T(2);"
+    FROM "sphere.radius += T(glm::length(Vec3T<WideT<T>>(moving.displacement)) / 2);"
     TO   ""
     CASES "moving: *")
 

@@ -169,6 +169,28 @@ for left_out in "--indirect none" "--depth 1"; do
 done
 "$render" dark.json --rays 1 --region 0,0,2,2 --quiet --out dark.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on a dark part: $(cat err.txt)"
+# So is light in so small a unit that relMSE, with its fixed epsilon, misses the noise: a floor
+# of albedo 1/2 at distance 1 from an intensity of pi/50 has the radiance 1/100.
+cat >dim.json <<'END'
+{"camera": {"position": [0, 3, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vfov_deg": 0.1},
+ "image": {"width": 4, "height": 4},
+ "materials": {"grey": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+ "objects": [{"type": "disc", "material": "grey", "center": [0, 0, 0], "normal": [0, 1, 0],
+              "radius": 1}],
+ "lights": [{"type": "point", "position": [0, 1, 0],
+             "intensity": [0.0628319, 0.0628319, 0.0628319]}]}
+END
+for wants in "--more-rays 2" "--error 0.1"; do
+    "$render" dim.json $wants --quiet --out choice.pfm 2>err.txt
+    grep -q '^the mean radiance of the picture is 0.01, .* all lamps by 100$' err.txt ||
+        wrong "no remark on dim light with $wants: $(cat err.txt)"
+    json_has '"remarks": ".*the mean radiance of the picture is 0.01,'
+done
+"$render" dim.json --rays 2 --quiet --out choice.pfm 2>err.txt
+[ ! -s err.txt ] || wrong "a remark on noise that nothing judges: $(cat err.txt)"
+sed 's/0\.0628319/6.28319/g' dim.json >bright.json
+"$render" bright.json --more-rays 2 --quiet --out choice.pfm 2>err.txt
+[ ! -s err.txt ] || wrong "a remark on bright light: $(cat err.txt)"
 # So is a radius in another unit than the scene's, of a picture in passes as well; the plan
 # shows it beside the scene's size.
 for passes in "" "--passes 2"; do

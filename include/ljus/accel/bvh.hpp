@@ -92,7 +92,8 @@ public:
     /// Builds the tree from the top, by the surface area heuristic.
     /// \param boxes     Boxes of fewer than 2^31 primitives; they may be equal or flat.
     /// \param settings  The tree does not depend on the number of threads.
-    /// \throws std::invalid_argument  if a box is not finite, or if there are too many.
+    /// \throws std::invalid_argument  if a box is not finite or has swapped corners, or
+    ///         if there are too many.
     /// \cost O(n log n) for n boxes; in float at most 68 bytes per box, and 36 more
     ///       during the build.
     explicit BvhT(std::span<const BoxT<T>> boxes, const BvhSettings& settings = {})

@@ -24,8 +24,8 @@ public:
     /// Builds the tree.
     /// \param boxes     The boxes of the primitives, as for BvhT, but fewer than 2^27.
     /// \param settings  As for BvhT, but at most 16 primitives per leaf.
-    /// \param multiple  The first slot of each leaf is a multiple of this number.
-    ///                  Unused slots between leaves are padding.
+    /// \param multiple  The first slot of each leaf is a multiple of this number, which
+    ///                  is at least 1. Unused slots between leaves are padding.
     /// \throws std::invalid_argument  as the constructor of BvhT.
     explicit Bvh8(std::span<const Box> boxes, const BvhSettings& settings = {},
                   std::uint32_t multiple = 1)

@@ -108,7 +108,7 @@ template <typename S>
     auto sphere = bounding_sphere(moving.shape);
     using T = decltype(sphere.radius);
     sphere.center += moving.displacement / T(2);
-    sphere.radius += glm::length(moving.displacement) / T(2);
+    sphere.radius += T(glm::length(Vec3T<WideT<T>>(moving.displacement)) / 2);
     return sphere;
 }
 

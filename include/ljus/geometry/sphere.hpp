@@ -48,8 +48,7 @@ struct ChordT {
 /// \f[ t^2\,(D \cdot D) + 2t\,D \cdot (O - C) + |O - C|^2 - R^2 = 0. \f]
 /// The discriminant is computed as \f$ R^2 - |P|^2 \f$, where P is the vector from C to
 /// the nearest point of the line. This form is accurate even for a small, distant
-/// sphere. The second root is computed from the first one, without cancellation
-/// \cite haines2019.
+/// sphere. The root closer to 0 is computed from the other one \cite haines2019.
 /// \tparam Compute  The precision of the arithmetic; by default that of the data. All
 ///                  lengths, and their products with the length of the direction, must
 ///                  be between 1e-18 and 1e18 in float, and between 1e-150 and 1e150 in

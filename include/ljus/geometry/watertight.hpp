@@ -71,7 +71,7 @@ template <std::same_as<Watertight> Test, std::floating_point T>
 [[nodiscard]] std::optional<ShapeHitT<T>>
 intersect(const RayT<T>& ray, const TriangleT<T>& triangle,
           const detail::ShearT<T>& shear) noexcept {
-    // Wide enough for an exact product of two Ts.
+    // Products of two floats are exact; those of two doubles are rounded.
     using W = std::conditional_t<std::is_same_v<T, float>, double, long double>;
     const T* const o = &ray.origin.x;
     const auto corner = [&](const Vec3T<T>& vertex) {

@@ -315,9 +315,11 @@ template <std::floating_point T, std::floating_point U>
 
 /// FLIP of each pixel: how visible the change of the pixel is to a viewer who flips
 /// between two pictures of the same size. They are linear sRGB, clamped to [0, 1] as on
-/// a screen. `ppd` is from pixels_per_degree(). Before colours are compared, detail
-/// that is too fine for the eye is blurred. Where only one picture has an edge or a
-/// point, the colour difference is raised to a power below 1, which makes it larger.
+/// a screen. `ppd` is the number of pixels per degree of the visual field, by default
+/// that of 3840 pixels on a screen as wide as the eye is far. Before colours are
+/// compared, detail that is too fine for the eye is blurred. Where only one picture has
+/// an edge or a point, the colour difference is raised to a power below 1, which makes
+/// it larger.
 /// \return A grey image in [0, 1]; 0 where no difference is visible.
 /// \throws std::invalid_argument  if the sizes differ, or ppd is not within [1, 1000].
 /// \cost Proportional to the number of pixels times ppd.

@@ -64,7 +64,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// HDR-FLIP of each pixel: the largest flip_map() over a range of exposures, which the
-/// reference alone determines. The pictures are linear sRGB of any brightness.
+/// reference alone determines. The pictures are linear sRGB of any brightness; for the
+/// exposures, a luminance below 1.2e-7 counts as 1.2e-7.
 /// \return A grey image in [0, 1].
 /// \throws std::invalid_argument  as flip_map().
 /// \cost That of flip_map(), times about the number of stops between the brightest and
@@ -101,7 +102,7 @@ template <std::floating_point T, std::floating_point U>
 
 /// The mean of hdr_flip_map().
 /// \return A number in [0, 1]. It stays the same if both pictures are scaled by the
-///         same number.
+///         same number, unless the median luminance is below 1.2e-7.
 /// \throws std::invalid_argument  as flip_map().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double hdr_flip(const ImageT<T>& image, const ImageT<U>& reference,

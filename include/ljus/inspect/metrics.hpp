@@ -20,11 +20,11 @@ namespace ljus {
 /// \defgroup metrics Error metrics
 /// \brief Means over pixels and channels of linear radiance, computed in double.
 ///
-/// x is the picture and r the reference. All metrics are 0 for equal pictures, and NaN
-/// if a picture has a NaN. Only the estimate of bias^2 can be negative. The reference
-/// should come from another algorithm and seed, with at most a tenth of the error to be
-/// measured. State relMSE together with the block error, which shows bias, and the
-/// trimmed error, which leaves out fireflies.
+/// x is the picture and r the reference. All metrics are 0 for equal finite pictures,
+/// and NaN if a picture has a NaN. Only the estimate of bias^2 can be negative. The
+/// reference should come from another algorithm and seed, with at most a tenth of the
+/// error to be measured. State relMSE together with the block error, which shows bias,
+/// and the trimmed error, which leaves out fireflies.
 /// \{
 
 /// The epsilon of the relative metrics for scenes with a mean radiance near 1. For
@@ -72,7 +72,7 @@ std::vector<double> relative_errors(const ImageT<T>& image, const ImageT<U>& ref
 ///
 /// *Trap*: a few highlights dominate the metric, and dark regions hardly count.
 /// \return The error, in units of radiance.
-/// \throws std::invalid_argument  as require_same_size().
+/// \throws std::invalid_argument  if the sizes differ, or as check(image).
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rmse(const ImageT<T>& image, const ImageT<U>& reference) {
     const auto square = [](double x, double r) { return (x - r) * (x - r); };
@@ -87,7 +87,7 @@ template <std::floating_point T, std::floating_point U>
 /// can values from tools that divide by (r + epsilon)^2.
 /// \return Dimensionless; about 1 for a black picture of a scene that is bright
 ///         throughout.
-/// \throws std::invalid_argument  as require_same_size(), or for the epsilon.
+/// \throws std::invalid_argument  as rmse(), or for the epsilon.
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] double rel_mse(const ImageT<T>& image, const ImageT<U>& reference,
                              double epsilon = default_epsilon) {
@@ -114,7 +114,8 @@ template <std::floating_point T, std::floating_point U>
         if (std::isnan(error)) return error;
     // The factor helps if the product was rounded to just below an integer.
     const double count = static_cast<double>(errors.size());
-    const auto worst = static_cast<std::ptrdiff_t>(dropped * count * (1.0 + 1e-12));
+    const auto worst = static_cast<std::ptrdiff_t>(
+        std::min(dropped * count * (1.0 + 1e-12), count - 1.0));
     const auto end = errors.end() - worst;
     if (worst > 0) std::nth_element(errors.begin(), end, errors.end());
     errors.erase(end, errors.end());
@@ -155,7 +156,7 @@ struct BiasVariance {
 /// *Trap*: the estimate of bias^2 for a method without bias may be negative by chance.
 /// The estimate is not clamped to 0, because clamping would bias it.
 /// \return Both terms, in units of radiance squared.
-/// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size().
+/// \throws std::invalid_argument  for fewer than 2 runs, or as rmse().
 template <std::floating_point T, std::floating_point U>
 [[nodiscard]] BiasVariance bias_variance(const std::vector<ImageT<T>>& runs,
                                          const ImageT<U>& reference) {
@@ -166,8 +167,10 @@ template <std::floating_point T, std::floating_point U>
     std::vector<double> biases(reference.pixels.size());
     std::vector<double> variances(reference.pixels.size());
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-        RgbT<double> mean(0.0);
-        for (const ImageT<T>& run : runs) mean += RgbT<double>(run.pixels[i]) / count;
+        const RgbT<double> first(runs.front().pixels[i]); // exact for equal runs
+        RgbT<double> mean = first;
+        for (const ImageT<T>& run : runs)
+            mean += (RgbT<double>(run.pixels[i]) - first) / count;
         double squares = 0.0;
         for (const ImageT<T>& run : runs) {
             const RgbT<double> difference = RgbT<double>(run.pixels[i]) - mean;
@@ -195,7 +198,7 @@ struct BlockStatistics {
 /// *Trap*: the standard error is itself an estimate. Its relative error is
 /// 1/sqrt(2(M - 1)): 71 % with two runs, 18 % with 16.
 /// \return Means and standard errors, in units of radiance.
-/// \throws std::invalid_argument  for fewer than 2 runs, or as require_same_size() and
+/// \throws std::invalid_argument  for fewer than 2 runs, or as rmse() and
 ///         block_means().
 template <std::floating_point T>
 [[nodiscard]] BlockStatistics block_statistics(const std::vector<ImageT<T>>& runs,
@@ -211,8 +214,9 @@ template <std::floating_point T>
     BlockStatistics result{make_image<double>(width, height),
                            make_image<double>(width, height), runs.size()};
     for (std::size_t i = 0; i < result.mean.pixels.size(); ++i) {
-        RgbT<double>& mean = result.mean.pixels[i];
-        for (const auto& block : blocks) mean += block.pixels[i] / count;
+        const RgbT<double>& first = blocks.front().pixels[i]; // exact for equal runs
+        RgbT<double>& mean = result.mean.pixels[i] = first;
+        for (const auto& block : blocks) mean += (block.pixels[i] - first) / count;
         RgbT<double> squares(0.0);
         for (const auto& block : blocks) {
             const RgbT<double> difference = block.pixels[i] - mean;

@@ -152,6 +152,59 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
     return numbers;
 }
 
+// What the lines of a header say about the colours.
+struct HdrHeader {
+    RgbT<double> exposure{1.0}; // divides the pixels
+    glm::dmat3 to_srgb{1};
+};
+
+// Reads the lines of a header down to the empty one.
+inline HdrHeader read_hdr_header(ByteReader& reader) {
+    HdrHeader header;
+    bool xyze = false;
+    for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
+        const std::string says = "its header says " + shown(line);
+        line.erase(line.find_last_not_of(" \t") + 1);
+        if (line.starts_with("FORMAT=")) {
+            const std::string_view format =
+                Words{std::string_view(line).substr(7)}.next();
+            xyze = format == "32-bit_rle_xyze";
+            if (!xyze && format != "32-bit_rle_rgbe")
+                reader.fail(says + "; it must be 32-bit_rle_rgbe or 32-bit_rle_xyze");
+        }
+        if (line.starts_with("PRIMARIES=")) {
+            const auto numbers = header_numbers(line, 10);
+            const std::vector<double> unknown(8); // so written by image editors
+            const auto matrix = numbers == unknown ? glm::dmat3{1} : to_srgb(numbers);
+            if (!matrix)
+                reader.fail(says + ", which are not x and y of red, green, blue and "
+                                   "white; remove the line if the colours are sRGB");
+            header.to_srgb = *matrix;
+        }
+        if (line.starts_with("GAMMA=") &&
+            header_numbers(line, 6) != std::vector<double>{1.0})
+            reader.fail(says + "; only radiance is supported, with a gamma of 1");
+        const bool three = line.starts_with("COLORCORR=");
+        if (!three && !line.starts_with("EXPOSURE=")) continue;
+        const auto numbers = header_numbers(line, three ? 10 : 9);
+        // So written where the exposure is unknown.
+        if (!three && numbers == std::vector{0.0}) continue;
+        const bool good =
+            numbers.size() == (three ? 3u : 1u) &&
+            std::all_of(numbers.begin(), numbers.end(), [](double number) {
+                return number > 0.0 && std::isfinite(number);
+            });
+        if (!good)
+            reader.fail(says + ", which is not " +
+                        (three ? "three numbers above 0" : "a number above 0"));
+        header.exposure *= three ? RgbT<double>{numbers[0], numbers[1], numbers[2]}
+                                 : RgbT<double>{numbers[0]};
+    }
+    if (xyze) // as Radiance converts them: (1/3, 1/3) becomes white
+        header.to_srgb = glm::inverse(columns_of(radiance_primaries)) / 179.;
+    return header;
+}
+
 } // namespace detail
 
 /// Loads a Radiance file in RGBE or XYZE with rows from left to right, plain or
@@ -166,44 +219,7 @@ inline std::vector<double> header_numbers(const std::string& line, std::size_t n
 template <std::floating_point T = float>
 [[nodiscard]] ImageT<T> load_hdr(const std::string& path) {
     detail::ByteReader reader{path, load_file(path, 8 * std::size_t(max_pixels), "#?")};
-    RgbT<double> exposure{1.0};
-    std::optional<glm::dmat3> primaries{glm::dmat3{1}};
-    bool xyze = false;
-    for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
-        const std::string says = "its header says " + shown(line);
-        line.erase(line.find_last_not_of(" \t") + 1);
-        if (line.starts_with("FORMAT=")) {
-            xyze = line.ends_with("32-bit_rle_xyze");
-            if (!xyze && !line.ends_with("32-bit_rle_rgbe"))
-                reader.fail(says + "; it must be 32-bit_rle_rgbe or 32-bit_rle_xyze");
-        }
-        if (line.starts_with("PRIMARIES=")) {
-            const auto numbers = detail::header_numbers(line, 10);
-            const std::vector<double> unknown(8); // so written by image editors
-            if (numbers != unknown) primaries = detail::to_srgb(numbers);
-            if (!primaries)
-                reader.fail(says + ", which are not x and y of red, green, blue and "
-                                   "white; remove the line if the colours are sRGB");
-        }
-        if (line.starts_with("GAMMA=") &&
-            detail::header_numbers(line, 6) != std::vector<double>{1.0})
-            reader.fail(says + "; only radiance is supported, with a gamma of 1");
-        const bool three = line.starts_with("COLORCORR=");
-        if (!three && !line.starts_with("EXPOSURE=")) continue;
-        const auto numbers = detail::header_numbers(line, three ? 10 : 9);
-        // So written where the exposure is unknown.
-        if (!three && numbers == std::vector{0.0}) continue;
-        const bool good =
-            numbers.size() == (three ? 3u : 1u) &&
-            std::all_of(numbers.begin(), numbers.end(), [](double number) {
-                return number > 0.0 && std::isfinite(number);
-            });
-        if (!good)
-            reader.fail(says + ", which is not " +
-                        (three ? "three numbers above 0" : "a number above 0"));
-        exposure *= three ? RgbT<double>{numbers[0], numbers[1], numbers[2]}
-                          : RgbT<double>{numbers[0]};
-    }
+    const detail::HdrHeader header = detail::read_hdr_header(reader);
     const std::string y_word = reader.word();
     const std::string y_size = reader.word();
     const std::string x_word = reader.word();
@@ -222,7 +238,7 @@ template <std::floating_point T = float>
     for (int y = 0; y < height; ++y) {
         detail::read_rgbe_row(reader, row, static_cast<std::size_t>(width));
         for (const auto& rgbe : row) {
-            const RgbT<T> color(detail::from_rgbe(rgbe) / exposure);
+            const RgbT<T> color(detail::from_rgbe(rgbe) / header.exposure);
             if (!is_finite(color))
                 reader.fail("a pixel divided by its exposure is not finite");
             image.pixels.push_back(color);
@@ -234,9 +250,7 @@ template <std::floating_point T = float>
     for (auto low = image.pixels.begin(), high = image.pixels.end();
          upwards && high - low > width; low += width)
         high = std::swap_ranges(low, low + width, high - width) - width;
-    if (xyze) // as Radiance converts them: (1/3, 1/3) becomes white
-        primaries = glm::inverse(detail::columns_of(detail::radiance_primaries)) / 179.;
-    detail::convert(image.pixels, *primaries, std::numeric_limits<T>::max());
+    detail::convert(image.pixels, header.to_srgb, std::numeric_limits<T>::max());
     return image;
 }
 

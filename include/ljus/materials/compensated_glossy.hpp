@@ -23,7 +23,7 @@ template <std::floating_point T, typename Facet = RgbT<T>>
 struct CompensatedGlossyT {
     using Scalar = T;          ///< The precision of its numbers.
     GlossyT<T, Facet> first{}; ///< The lobe of light that meets one facet.
-    /// The energy that `first` loses: a table from bake_energy_loss().
+    /// The energy that `first` loses: a table from detail::bake_energy_loss().
     detail::EnergyLossT<T> loss{};
     RgbT<T> mean{T(0)}; ///< Mean reflectance of a facet, from mean_reflectance().
 };
@@ -49,8 +49,8 @@ template <std::floating_point T, typename Facet>
 } // namespace detail
 
 /// Adds multiple scattering to the rough mirror `first`. The table `loss` is from
-/// bake_energy_loss() or from another material of the same roughness. The scene refuses
-/// a table for another roughness.
+/// detail::bake_energy_loss() or from another material of the same roughness. The scene
+/// refuses a table for another roughness.
 /// \throws std::invalid_argument  as check(first).
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F>
@@ -64,7 +64,7 @@ compensated_glossy(const GlossyT<T, F>& first, const detail::EnergyLossT<T>& los
 /// Adds multiple scattering to a rough mirror. With roughness 0 the material scatters
 /// like the mirror itself.
 /// \throws std::invalid_argument  as check(first).
-/// \cost That of bake_energy_loss(): about 20 ms.
+/// \cost That of detail::bake_energy_loss(): about 20 ms.
 template <std::floating_point T, typename F>
 [[nodiscard]] CompensatedGlossyT<T, F> compensated_glossy(const GlossyT<T, F>& first) {
     check(first);
@@ -80,7 +80,7 @@ template <std::floating_point T, typename F>
 
 /// The BRDF: the sum of the lobes of one reflection and of multiple scattering.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
-/// \cost That of evaluate() of GlossyT, and two calls of lost_at().
+/// \cost That of evaluate() of GlossyT, and two calls of detail::lost_at().
 /// \cite kulla2017
 // [full evaluate]
 template <std::floating_point T, typename F>

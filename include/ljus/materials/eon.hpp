@@ -182,7 +182,7 @@ template <std::floating_point T>
 
 /// Samples a direction with a density nearly proportional to the BRDF times the cosine
 /// \cite eon2025.
-/// \cost Eight to ten times that of a cosine-weighted direction.
+/// \cost Eight to ten times that of Lambert's sample().
 template <std::floating_point T>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const EonT<T>& surface, const Vec3T<T>& wo, const Vec3T<T>& u,

@@ -133,9 +133,10 @@ void check(const GlassT<T>& glass) {
 /// \brief Section 3.2.5 of the report, for a window: both boundaries of a pane as one
 /// surface.
 ///
-/// A pane is a *thin sheet*, like a soap film: shadow rays and photons pass straight
-/// through it and are tinted, see \ref next_vertex. sample() returns the reflection,
-/// and pass_through() the transmittance.
+/// A pane is a *thin sheet*, like a soap film: shadow rays pass straight through it and
+/// are tinted; other paths pass or are reflected, chosen at random, see
+/// \ref next_vertex. sample() returns the reflection, and pass_through() the
+/// transmittance.
 /// \{
 
 /// A pane with air on both sides.

@@ -79,7 +79,8 @@ template <std::floating_point T, typename F>
 ///
 /// where h is the half vector, F the reflectance of a facet, D the density of facet
 /// normals from ggx_distribution(), G_2 the fraction of facets visible from both
-/// directions, and r the function ggx_lambda().
+/// directions, and \f$ r(w)^2 = w_z^2 + \alpha^2 (w_x^2 + w_y^2) \f$ with alpha, the
+/// squared roughness.
 /// \return f in 1/sr, without the cosine; 0 for directions on different sides, and at
 ///         grazing angles where f would overflow.
 /// \cost Three square roots.

@@ -105,9 +105,9 @@ lobe_fractions(const MixtureT<T>& mixture, const Vec3T<T>& wo, Lobes which) noex
 
 } // namespace detail
 
-/// The BRDF of the matt lobe. The factor 1 - F, where F is the boundary_reflectance(),
-/// appears twice, for `wi` and for `wo`, because light crosses the boundary on its way
-/// in and on its way out.
+/// The BRDF of the matt lobe. The factor 1 - F, where F is the
+/// detail::boundary_reflectance(), appears twice, for `wi` and for `wo`, because light
+/// crosses the boundary on its way in and on its way out.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 // [mixture]
@@ -138,7 +138,7 @@ template <std::floating_point T>
 /// Samples one direction. u.z chooses a lobe in proportion to the lobe's fraction of
 /// the light, so that the weight is the sum of all fractions. The weight of the matt
 /// lobe has three more factors: the colour over its brightest channel, 1 minus the
-/// boundary_reflectance() for `wi`, and oren_nayar_ratio().
+/// detail::boundary_reflectance() for `wi`, and detail::oren_nayar_ratio().
 /// \cost One call of fresnel() for `wo`; for the matt lobe, another one for `wi`.
 /// \report{Sections 3.2.1, 3.2.4 and 3.2.5}
 template <std::floating_point T>

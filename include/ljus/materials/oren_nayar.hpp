@@ -78,10 +78,10 @@ template <std::floating_point T>
 
 } // namespace detail
 
-/// The BRDF: Lambert's albedo/pi times oren_nayar_ratio(). The model leaves out the
-/// light that facets send to each other, so that a white surface loses light at most
-/// angles. At grazing angles a white surface reflects up to 1.5 percent more light than
-/// it receives.
+/// The BRDF: Lambert's albedo/pi times detail::oren_nayar_ratio(). The model leaves out
+/// the light that facets send to each other, so that a white surface loses light at
+/// most angles. At grazing angles a white surface reflects up to 1.5 percent more light
+/// than it receives.
 /// \return f in 1/sr, without the cosine; 0 if the directions lie on different sides.
 /// \report{Section 3.2.1}
 template <std::floating_point T>
@@ -100,7 +100,7 @@ template <std::floating_point T>
 }
 
 /// Samples a direction by sample_cosine_lobe(). The weight is the albedo times
-/// oren_nayar_ratio().
+/// detail::oren_nayar_ratio().
 /// \cost One sine, one cosine, one square root and four divisions.
 /// \report{Section 3.2.4}
 template <std::floating_point T>

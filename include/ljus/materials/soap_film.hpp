@@ -14,9 +14,9 @@ namespace ljus {
 /// \defgroup soap_film Soap films
 /// \brief The soap bubble of figure 4. Chapter: \ref ch_soap_film.
 ///
-/// The film is a *thin sheet*: shadow rays and photons pass straight through it and are
-/// tinted, see \ref next_vertex. sample() returns the reflection, and pass_through()
-/// the transmittance.
+/// The film is a *thin sheet*: shadow rays pass straight through it and are tinted;
+/// other paths pass or are reflected, chosen at random, see \ref next_vertex. sample()
+/// returns the reflection, and pass_through() the transmittance.
 /// \{
 
 /// The function that computes the colours of a film.

@@ -93,8 +93,8 @@ template <std::floating_point T>
 } // namespace detail
 
 /// How the rays of a pixel are spread over the pixel. Every pattern has exactly the
-/// requested number n of points. A point chosen at random is uniform over the pixel, so
-/// that the pattern does not change the mean of a pixel.
+/// requested number n of points. One of them, chosen at random, is uniform over the
+/// pixel, so that the pattern does not change the mean of a pixel.
 enum class Sampling : std::uint8_t {
     random, ///< Independent points.
     /// One point in each cell of a grid. If the grid would be too long and narrow, each
@@ -202,9 +202,9 @@ template <std::floating_point T>
 /// \param key      The pixel's key. The points of two pixels are independent if their
 ///                 keys differ; mix_bits() makes good keys of consecutive numbers.
 /// \param u        Two random numbers in [0, 1); Sobol points do not use them.
-/// \return Point of the unit square, uniform over all numbers, keys and u. A coordinate
-///         may be rounded to 1.
-/// \cost Some nanoseconds; \ref ch_first_picture has a table for 61 and for 64 points.
+/// \return Point of the unit square, uniformly distributed for random `key`, `u` and
+///         `number`. A coordinate may be rounded to 1.
+/// \cost Some nanoseconds.
 /// \report{Section 3.2}
 // [spread]
 template <std::floating_point T>

@@ -27,7 +27,7 @@ inline constexpr std::array<T, 2> visible{T(360), T(830)};
 /// view of 2 degrees, fitted by seven Gaussians \cite wyman2013. The fit is within 0.03
 /// of the CIE's table, whose values go up to 1.8.
 /// \param wavelength  In nm; visible light is between 380 and 780.
-/// \return \f$ \bar x, \bar y, \bar z \f$. The integral of each is 106.9 nm.
+/// \return \f$ \bar x, \bar y, \bar z \f$. The integrals are 106.7 to 106.9 nm.
 /// \cost Seven exponentials.
 // [observer]
 template <std::floating_point T>
@@ -64,10 +64,10 @@ template <std::floating_point T>
     return {row(r), row(g), row(b)};
 }
 
-/// Moves a linear sRGB colour into the range that a screen can show and a surface can
-/// reflect. The colour is mixed with just enough grey of the same luminance to bring
-/// all channels into [0, 1]. Clamping the channels instead would change the luminance.
-/// The luminance of the result is that of `c`, clamped to [0, 1].
+/// Moves a finite colour of linear sRGB into the range that a screen can show and a
+/// surface can reflect. The colour is mixed with just enough grey of the same luminance
+/// to bring all channels into [0, 1]. Clamping the channels instead would change the
+/// luminance. The luminance of the result is that of `c`, clamped to [0, 1].
 // [into_gamut]
 template <std::floating_point T>
 [[nodiscard]] RgbT<T> into_gamut(const RgbT<T>& c) noexcept {

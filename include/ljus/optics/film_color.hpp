@@ -116,10 +116,10 @@ template <std::floating_point T>
 ///     \cos 2k\varphi . \f]
 ///
 /// R_1 is the reflectance of one surface, and phi is the phase that thin_film()
-/// defines. Each cosine is replaced by its mean over the spectrum, visible_swing(). The
-/// sum ends at k = 3.
+/// defines. Each cosine is replaced by its mean over the spectrum,
+/// detail::visible_swing(). The sum ends at k = 3.
 /// \return Linear sRGB, which may be outside the range of a screen.
-/// \cost Three calls of visible_swing().
+/// \cost Three calls of detail::visible_swing().
 /// \cite belcour2017
 // [preintegrated]
 template <std::floating_point T>

@@ -343,8 +343,8 @@ struct DirectLightSettings {
     int rays = 1;
     /// The lobes from which the next ray of the path is sampled, if that ray is to
     /// serve as the scattered ray of multiple importance sampling. The caller must then
-    /// add its light by met_light(). With Lobes::none an extra ray is traced. In fog,
-    /// only Lobes::none is allowed.
+    /// add its light by detail::met_light(). With Lobes::none an extra ray is traced.
+    /// In fog, only Lobes::none is allowed.
     Lobes next = Lobes::none;
 };
 

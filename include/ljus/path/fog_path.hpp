@@ -221,7 +221,8 @@ template <Medium M, std::floating_point T>
 /// light is chosen in proportion to its power, and one shadow ray is cast towards it.
 /// The scene must have a light. `throughput` is that of the path after fly(). Three
 /// numbers are drawn.
-/// \return Throughput times radiance times the weights.
+/// \return Throughput times radiance times the weights; 0 if aimed_light() finds this
+///         light alone.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> light_in_flight(const W& world, const FogSegmentT<T>& segment,
                                       const FogVertexT<T>& vertex,
@@ -250,7 +251,8 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// \cite kulla2012.
 /// The scene must have a light, and the segment must lie outside all bodies. Five
 /// numbers are drawn, except for FogLight::flight.
-/// \return Throughput times radiance times the weights; 0 for FogLight::flight.
+/// \return Throughput times radiance times the weights; 0 for FogLight::flight and for
+///         distant lights.
 // [aimed light]
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> aimed_light(const W& world, const FogSegmentT<T>& segment,

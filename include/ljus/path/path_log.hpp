@@ -89,11 +89,17 @@ void log_vertex(Log& log, const PathStateT<T>& path) {
 }
 
 /// Reports a path from split_path(), which has met only mirrors and glass, as a new
-/// path with all its vertices so far.
+/// path with all its letters. Of its vertices, a PathLog records the last one: the path
+/// no longer knows the others. Any other log receives the last one once per letter.
 template <typename Log, std::floating_point T>
 void log_specular_path(Log& log, const PathStateT<T>& path) {
     log.begin();
-    for (int vertex = 0; vertex < path.depth; ++vertex) log_vertex(log, path);
+    for (int vertex = 1; vertex < path.depth; ++vertex)
+        if constexpr (requires { log.letters; })
+            log.letters += 'S';
+        else
+            log_vertex(log, path);
+    log_vertex(log, path);
 }
 
 } // namespace detail

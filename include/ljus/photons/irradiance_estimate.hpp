@@ -8,6 +8,7 @@
 #include <concepts>
 #include <numbers>
 #include <span>
+#include <string_view>
 
 #include "ljus/geometry/surface_point.hpp"
 #include "ljus/math/require.hpp"
@@ -50,29 +51,31 @@ using DensityEstimateSettings = DensityEstimateOf<Kernel>;
 
 namespace detail {
 
-inline void check_nearest(std::size_t nearest) {
-    require(nearest != 1 && nearest <= max_nearest, "gather.nearest",
-            static_cast<long long>(nearest),
-            "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
+inline void check_nearest(std::size_t nearest, std::string_view of) {
+    if (nearest == 1 || nearest > max_nearest)
+        refuse(join({of, ".nearest"}), static_cast<long long>(nearest),
+               "0 for all within the radius, or 2 to 512 (one photon sets the radius)");
 }
 
-/// Checks all settings but the kernel.
+/// Checks all settings but the kernel. `name` is that of the settings, for messages.
 template <typename K>
-void check_disc(const DensityEstimateOf<K>& gather) {
-    require(gather.radius >= 1e-15f && gather.radius <= 1e15f, "gather.radius",
-            gather.radius, "within [1e-15, 1e15], or no float holds the radiance");
-    require_positive("gather.thickness", gather.thickness);
-    check_nearest(gather.nearest);
+void check_disc(const DensityEstimateOf<K>& gather, std::string_view name = "gather") {
+    if (!(gather.radius >= 1e-15f && gather.radius <= 1e15f))
+        refuse(join({name, ".radius"}), gather.radius,
+               "within [1e-15, 1e15], or no float holds the radiance");
+    if (!(gather.thickness > 0 && std::isfinite(gather.thickness)))
+        refuse(join({name, ".thickness"}), gather.thickness, "finite and above 0");
+    check_nearest(gather.nearest, name);
 }
 
 } // namespace detail
 
-/// Checks the settings of an estimate.
+/// Checks the settings of an estimate. `name` is that of the settings, for messages.
 /// \throws std::invalid_argument  if a value is out of range, or if the mean of a
 ///         kernel of your own is not 1.
 template <typename K>
-void check(const DensityEstimateOf<K>& gather) {
-    detail::check_disc(gather);
+void check(const DensityEstimateOf<K>& gather, std::string_view name = "gather") {
+    detail::check_disc(gather, name);
     if constexpr (!std::same_as<K, Kernel>) {
         double mean = 0; // averaged over a thousand rings of equal area
         for (int i = 0; i < 1000; ++i)
@@ -145,7 +148,7 @@ template <std::floating_point T, KernelLike<T> K, typename Factor>
 sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
                const DensityEstimateOf<K>& gather, PhotonKinds kinds,
                std::uint64_t& gathered, const Factor& factor) {
-    check_nearest(gather.nearest); // there is room for max_nearest only
+    check_nearest(gather.nearest, "gather"); // there is room for max_nearest only
     const double widest2 = double(gather.radius) * double(gather.radius);
     std::array<Neighbor, max_nearest> room;
     const auto [photons, radius2] =

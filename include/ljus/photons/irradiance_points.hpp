@@ -110,7 +110,8 @@ template <std::floating_point T>
 /// \param map       The photons.
 /// \param vertex    The point of the surface.
 /// \param normal    Unit normal on the side of the irradiance.
-/// \param settings  The number of photons, and whether edges are corrected.
+/// \param settings  The number of photons, and whether edges are corrected; they must
+///                  pass check().
 /// \param radius    The largest radius of the disc, in scene units.
 /// \param wanted    wanted(index of a record) returns whether the photon counts.
 /// \return W/m^2.

@@ -139,14 +139,16 @@ void trace_light_path(const W& world, const LightPathSettings& settings, Stream 
 }
 // [light path]
 
-/// Refuses lights, shapes and materials that light paths do not support.
+/// Refuses lights, shapes, materials and media that light paths do not support.
 template <AnyWorld W>
 [[gnu::cold]] void require_joints(const W& world) {
+    require_no_fog(world, "joined light paths");
     for (std::uint32_t i = 0; i < world.light_count(); ++i)
         require(
             world.visit_light(i, []<typename L>(const L&) { return has_light_end<L>; }),
             "the number of a light", static_cast<long long>(i),
-            "that of a lamp, a point or a spot, where a light path can begin");
+            "that of a point, a spot, a goniometric light or a lamp without a picture, "
+            "where a light path can begin");
     const auto rest = []<typename G>(const std::vector<G>& list) {
         require(!is_moving<G> || list.empty(), "the number of moving shapes",
                 static_cast<long long>(list.size()), "0, or paths differ in time");
@@ -167,8 +169,9 @@ template <AnyWorld W>
 /// \param world     The closed scene.
 /// \param settings  The settings.
 /// \return The paths, the same for any number of threads; empty if there is no light.
-/// \throws std::invalid_argument  if a setting is out of range, a light is neither a
-///         lamp nor a point nor a spot, a shape moves, or a material disperses light.
+/// \throws std::invalid_argument  if a setting is out of range, a light is a sun, an
+///         environment or a lamp with a picture, a shape moves, a material disperses
+///         light, or the scene has fog.
 /// \cost About 350 bytes per vertex.
 template <AnyWorld W>
 [[nodiscard, gnu::cold]] LightPathsT<typename W::Scalar>

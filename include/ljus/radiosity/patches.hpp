@@ -46,7 +46,7 @@ struct Patches {
 /// How a scene is divided.
 struct PatchSettings {
     double size = 0.25; ///< The largest edge length of a patch, in scene units.
-    /// The largest number of patches. n patches take 8 n^2 bytes of memory.
+    /// The largest number of patches, at most 65536. n patches take 8 n^2 bytes.
     std::uint32_t most = 8192;
 };
 
@@ -161,7 +161,7 @@ inline void say(Patches& all, long long count, const char* one, const char* many
 /// patches. A flat shape has patches on each side in front of which something lies. A
 /// ball has patches on its outer side, or on its inner side if it was added inside out.
 /// All other objects occlude, but reflect no light; Patches::left_out counts them.
-/// \throws std::invalid_argument  if the size is not above 0, if there are no patches
+/// \throws std::invalid_argument  if a setting is out of range, if there are no patches
 ///         or too many, or if the scene has fog.
 /// \cost One test per pair of objects.
 /// \report{Section 2.2}

@@ -44,6 +44,7 @@ caustic_light_shares(const W& world, const PhotonMappingSettings& settings) {
 ///                  photons of a general pass estimate all light that is no caustic.
 /// \return PhotonPassSettings::shares; unchanged if the settings contain them, or for
 ///         CausticBudget::as_seen.
+/// \throws std::invalid_argument  as trace_photons(), as for a scene without a light.
 template <AnyWorld W>
 [[nodiscard]] std::vector<double>
 caustic_shares(const W& world, const PhotonMappingSettings& settings) {

@@ -417,8 +417,9 @@ private:
         else if (passes_.general_map && !passes_.irradiance)
             maps_.remarks += detail::radius_remark(
                 "general_estimate", settings_.general_estimate, maps_.general);
-        check(settings_.caustics_estimate); // a chosen radius may be out of range
-        check(settings_.general_estimate);
+        // A chosen radius may be out of range.
+        check(settings_.caustics_estimate, "caustics_estimate");
+        check(settings_.general_estimate, "general_estimate");
     }
 
     // Refuses settings that are out of range, or not allowed here.
@@ -624,6 +625,43 @@ void cross_fog(const PhotonMapper<W, X...>& mapper, PathStateT<T>& path,
 }
 // [light in fog]
 
+/// What a camera path does at a surface.
+struct SurfacePlan {
+    bool gather = false; ///< Photons have the light there, see light_at().
+    bool mirror = false; ///< Nearly specular gloss, which counts as a mirror.
+    bool ends = false;   ///< Gloss where photons have the indirect light.
+    Lobes open{};        ///< The lobes by which the path may continue.
+};
+
+/// Decides what a camera path does at a surface.
+/// \param gloss_mirrors  Whether nearly specular gloss counts as a mirror on this path.
+template <AnyWorld W, typename... X, std::floating_point T, Material M>
+[[nodiscard]] SurfacePlan plan_surface(const PhotonMapper<W, X...>& mapper,
+                                       const PathStateT<T>& path,
+                                       const VertexT<T>& vertex, const M& material,
+                                       [[maybe_unused]] bool gloss_mirrors) {
+    const IndirectLight indirect = mapper.settings().indirect;
+    const bool second = path.met_diffuse && gathers(indirect);
+    const bool through = scatters_through(material);
+    SurfacePlan plan{.gather = second && !through};
+    if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
+        if (second && indirect != IndirectLight::map &&
+            (has(lobes(material), Lobes::glossy) || mapper.maps().starved)) {
+            // Irradiance does not determine what a glossy surface reflects.
+            plan.gather = false;
+            plan.mirror =
+                gloss_mirrors && nearly_specular_at(mapper.world(), vertex, material);
+            plan.ends = ends_on_gloss(mapper, vertex, material);
+        }
+    if (plan.gather || plan.ends)
+        plan.open = Lobes::specular;
+    else if (plan.mirror || (through && indirect == IndirectLight::photons))
+        plan.open = Lobes::all;
+    else
+        plan.open = mapper.bounces();
+    return plan;
+}
+
 /// The largest number of branches that split off from one camera path at glass.
 inline constexpr std::size_t max_splits = 8;
 
@@ -692,43 +730,28 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
             if (vertex->emits() && !path.met_diffuse)
                 add("emission", "L", vertex->object.emission);
 
-            const bool second = path.met_diffuse && detail::gathers(settings.indirect);
             const auto at_material = [&]<typename M>(const M& material) {
                 const Lobes parts = lobes(material);
-                const bool through = scatters_through(material);
-                bool gather = second && !through, mirror = false, ends = false;
-                if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
-                    if (second && settings.indirect != IndirectLight::map &&
-                        (has(parts, Lobes::glossy) || mapper.maps().starved)) {
-                        // Irradiance does not determine what a glossy surface reflects.
-                        gather = false;
-                        mirror = gloss_mirrors &&
-                                 nearly_specular_at(mapper.world(), *vertex, material);
-                        ends = ends_on_gloss(mapper, *vertex, material);
-                    }
-                const bool follow =
-                    mirror || (through && settings.indirect == IndirectLight::photons);
-                const Lobes open = gather || ends ? Lobes::specular
-                                   : follow       ? Lobes::all
-                                                  : mapper.bounces();
+                const detail::SurfacePlan plan = detail::plan_surface(
+                    mapper, path, *vertex, material, gloss_mirrors);
                 if constexpr (!OnlySpecular<M>)
-                    if (has(parts, Lobes::non_specular) && !mirror) {
+                    if (has(parts, Lobes::non_specular) && !plan.mirror) {
                         const auto direct =
-                            detail::direct_light_at(mapper, path, material, open);
-                        light_at(mapper, *vertex, material, gather, direct, context,
-                                 add);
+                            detail::direct_light_at(mapper, path, material, plan.open);
+                        light_at(mapper, *vertex, material, plan.gather, direct,
+                                 context, add);
                         if constexpr (PhotonMapper<W, X...>::template has<Gathering>)
-                            if (ends)
+                            if (plan.ends)
                                 add("general map", "D..DL",
                                     photons_on_gloss(mapper, *vertex, material,
                                                      context.counts));
                         if (direct.next != Lobes::none) sharing = direct.rays;
-                        if (!gather)
+                        if (!plan.gather)
                             gloss_mirrors = mapper.passes().gloss_as_mirrors &&
                                             has(parts, Lobes::diffuse);
                     }
                 if (path.depth == settings.max_depth) {
-                    detail::cut_if(has(parts, open), context.counts);
+                    detail::cut_if(has(parts, plan.open), context.counts);
                     return false;
                 }
                 if (settings.split_glass && !path.met_diffuse &&
@@ -738,9 +761,9 @@ template <AnyWorld W, typename... X, std::floating_point T, typename Context>
                         return true;
                     }
                 // Follows one branch; after a lookup, via mirrors and glass only.
-                Lobes which = open;
+                Lobes which = plan.open;
                 if constexpr (PhotonMapper<W, X...>::template has<Skipping>)
-                    if (has(which, Lobes::diffuse) && !through &&
+                    if (has(which, Lobes::diffuse) && !scatters_through(material) &&
                         needs_no_bounce(mapper,
                                         detail::at_rest(mapper.world(), *vertex),
                                         context.counts))

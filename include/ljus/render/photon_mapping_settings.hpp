@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "ljus/image/image.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/irradiance_settings.hpp"
@@ -121,10 +123,11 @@ LJUS_CORE_INLINE void check(const PhotonMappingSettings& settings) {
             "within [2, 64]");
     require_positive("gather.reach", settings.gather.reach);
     require_at_least("gather.max_depth", settings.gather.max_depth, 2);
-    for (DensityEstimateSettings gather :
-         {settings.caustics_estimate, settings.general_estimate}) {
+    for (auto [gather, name] :
+         {std::pair{settings.caustics_estimate, "caustics_estimate"},
+          std::pair{settings.general_estimate, "general_estimate"}}) {
         if (gather.radius == 0) gather.radius = 1; // 0 is replaced later
-        check(gather);
+        check(gather, name);
     }
     require(settings.lone_radius >= 1 && settings.lone_radius <= 1000, "lone_radius",
             double(settings.lone_radius), "within [1, 1000]");
@@ -165,7 +168,8 @@ enum class Preset : std::uint8_t {
 /// \return All settings; seeds and threads have their defaults.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {
-    const long long pixels = static_cast<long long>(width) * height;
+    const long long pixels =
+        std::min(static_cast<long long>(width) * height, max_pixels);
     PhotonMappingSettings settings{.split_glass = true};
     settings.general.shadow_photons = false;
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;

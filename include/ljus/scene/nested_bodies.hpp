@@ -116,7 +116,8 @@ template <AnyWorld W, std::floating_point T>
 /// All bodies around the origin of a ray: those that the ray leaves without having
 /// entered them. The t_max of the ray is ignored. Each body must be closed. It may
 /// consist of several shapes.
-/// \cost One call of closest_hit() per surface up to the end of the scene.
+/// \cost One call of closest_hit() per surface up to the end of the scene. Only the
+///       first 256 surfaces are visited.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] BodyList bodies_around(const W& world, RayT<T> ray) {
     ray.t_max = std::numeric_limits<T>::infinity();

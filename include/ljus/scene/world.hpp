@@ -202,7 +202,7 @@ public:
 
     /// Closes a scene. A scene without instances may be copied instead of moved.
     /// \throws std::invalid_argument  if the scene contains data that add() would
-    ///         refuse, or if its arrays are inconsistent.
+    ///         refuse, or a black light, or if its arrays are inconsistent.
     [[gnu::cold]] explicit World(S scene, std::type_identity<Compute> = {})
         : shapes_(std::move(scene.shapes)), objects_(std::move(scene.objects)),
           prototypes_(std::move(scene.prototypes)), fog_(std::move(scene.media)) {
@@ -245,7 +245,8 @@ public:
                glm::all(glm::lessThanEqual(point, media_.high));
     }
     /// Whether the bounding box of an absorbing body overlaps that of another
-    /// transparent body, so that a path that leaves one may still be in the other.
+    /// transparent body, so that a path that leaves one may still be in the other. Also
+    /// true if there are absorbing bodies and more than 4096 transparent ones.
     [[nodiscard]] bool has_nested_media() const noexcept { return nested_media_; }
     /// Whether the scene lists a type of material that may have a priority.
     static constexpr bool lists_priorities =
@@ -547,7 +548,26 @@ private:
         return {.center = all.low + half, .radius = Scalar(1.001) * glm::length(half)};
     }
 
+    // Refuses an order that does not list each object and each light once.
+    [[gnu::cold]] void check_order(const S& scene) const {
+        std::array<std::vector<std::size_t>, 2> sizes; // of objects, of lights
+        for (const auto& list : objects_) sizes[0].push_back(list.size());
+        const auto add = [&](const auto& list) { sizes[1].push_back(list.size()); };
+        detail::each_array(scene.lights, add);
+        std::array<std::vector<std::size_t>, 2> listed;
+        for (const std::size_t kind : {0u, 1u}) listed[kind].resize(sizes[kind].size());
+        bool in_turn = true; // as add() lists them
+        for (const auto& [type, index, is_light] : scene.order) {
+            auto& next = listed[is_light];
+            in_turn = in_turn && type < next.size() && index == next[type]++;
+        }
+        require(in_turn && listed == sizes, "the number of entries in Scene::order",
+                static_cast<long long>(scene.order.size()),
+                "one for each shape and light: add them by add()");
+    }
+
     [[gnu::cold]] void close_lights(const S& scene) {
+        check_order(scene);
         const SphereT<Scalar> sphere = around();
         const auto keep = [&](auto& to, const auto& from) {
             for (const auto& light : from) {

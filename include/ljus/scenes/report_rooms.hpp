@@ -180,8 +180,8 @@ void add_report_matt_objects(ReportSceneT<T>& scene) {
 
 } // namespace detail
 
-/// The room of figures 1 and 15, with two lamps and every material.
-/// \report{Figures 1 and 15}
+/// The room of figure 1, with two lamps and every material.
+/// \report{Figure 1}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> final_room() {
     ReportSceneT<T> scene;
@@ -200,8 +200,8 @@ template <std::floating_point T = float>
     return {World(std::move(scene)), report_camera<T>()};
 }
 
-/// The room of figure 12, with one lamp and one object of each material.
-/// \report{Figure 12, Table 3}
+/// The room of figures 12 and 15, with one lamp and one object of each material.
+/// \report{Figures 12 and 15, Table 3}
 template <std::floating_point T = float>
 [[nodiscard]] Room<ReportSceneT<T>> all_materials_room() {
     ReportSceneT<T> scene;

@@ -184,9 +184,10 @@ void add_wide_node(Bvh8Nodes& wide, const BvhNodesT<T>& tree,
 /// Collapses a binary tree into a wide tree.
 /// \param tree      The binary tree. Its leaves have at most 16 primitives.
 /// \param multiple  As for Bvh8.
-/// \throws std::invalid_argument  if there are 2^27 slots or more.
+/// \throws std::invalid_argument  if there are 2^27 slots or more, or for multiple 0.
 template <std::floating_point T>
 [[nodiscard]] Bvh8Nodes make_bvh8(const BvhNodesT<T>& tree, std::uint32_t multiple) {
+    require_at_least("multiple", multiple, 1);
     Bvh8Nodes wide;
     if (tree.nodes.empty()) return wide;
     wide.box = tree.nodes[0].box;

@@ -206,6 +206,8 @@ public:
             const BoxT<T>& box = boxes[i];
             require_finite("a box's low corner", box.low);
             require_finite("a box's high corner", box.high);
+            require(glm::all(glm::lessThanEqual(box.low, box.high)),
+                    "a box's low corner", box.low, "at most its high corner");
             refs_[i] = {{{box.low.x, box.low.y, box.low.z, T(0), -box.high.x,
                           -box.high.y, -box.high.z, T(0)}},
                         static_cast<std::uint32_t>(i)};

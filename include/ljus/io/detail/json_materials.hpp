@@ -145,8 +145,10 @@ inline constexpr JsonMember unit_roughness_row =
     needed("roughness", fraction_value, "from smooth to rough", "0.5");
 inline constexpr JsonMember roughness_row =
     needed("roughness", roughness_value, "from smooth to rough", "0.25");
-inline constexpr JsonMember reflectance_row = needed(
-    "reflectance", color_value, "of a facet at normal incidence", "[0.9, 0.9, 0.9]");
+inline constexpr JsonMember reflectance_row =
+    needed("reflectance", color_value,
+           "of a facet at normal incidence; of a mirror at any angle",
+           "[0.9, 0.9, 0.9]");
 inline constexpr std::string_view metal_words[]{"gold", "copper", "silver"};
 inline constexpr JsonMember metal_row =
     needed("metal", {.kind = JsonKind::word, .words = metal_words},
