@@ -139,6 +139,8 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
     CHECK(refusal([] {
               (void)share_out(std::array{1.0, -1.0});
           }) == "the scatter of an object is -1; it must be finite and at least 0.");
+    CHECK(refusal([] { (void)share_out(std::array{1e308, 1e308}); }) ==
+          "the sum of the scatter is infinity; it must be finite.");
     CHECK(refusal([] { (void)share_out(std::array{std::nan("")}); }).find("NaN") !=
           std::string::npos);
     CHECK(refusal([] { (void)share_out(std::array{1.0}, 1.5); }) ==

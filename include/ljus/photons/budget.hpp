@@ -23,7 +23,7 @@ namespace ljus {
 /// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, the fraction
 /// `floor` of the photons is distributed evenly. With correct a_k, the sum of the
 /// variances is then at most 1/(1 - floor) times the smallest possible.
-/// \param scatter  The a_k: finite and at least 0.
+/// \param scatter  The a_k: at least 0, with a finite sum.
 /// \param floor    The fraction that is distributed evenly, in [0, 1].
 /// \return One fraction per object, at least `floor` divided by the number of objects;
 ///         the sum is 1. Equal fractions if all a_k are 0.
@@ -38,6 +38,7 @@ namespace ljus {
                 "finite and at least 0");
         sum += a;
     }
+    require(std::isfinite(sum), "the sum of the scatter", sum, "finite");
     std::vector<double> shares;
     for (const double a : scatter) {
         const double equal = 1 / double(scatter.size());
