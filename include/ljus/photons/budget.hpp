@@ -108,6 +108,7 @@ trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
     pass.shares.assign(objects, 0.0);
     pass.shares[object] = 1;
     pass.photons = pass.give_up = paths;
+    pass.keep.bits &= all_kinds.bits; // a photon in fog has no normal
     pass.iteration = ~pass.iteration - object;
     pass.progress = no_progress;
     return trace_photons(world, MapType::caustics, pass);
@@ -263,6 +264,7 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
     pass.give_up = pass.photons;
     pass.equal_lights = true;
     pass.shadow_photons = false;
+    pass.keep.bits &= all_kinds.bits; // a photon in fog does not know its light
     pass.shares = pass.light_shares = {};
     pass.iteration = ~pass.iteration - (1u << 31); // beyond the pilots of objects
     pass.progress = no_progress;
