@@ -225,6 +225,11 @@ TEST_CASE("adaptive: the limit for the mean is kept, and used") {
         render_adaptive(Halves{}, Camera{}, square(32, 1000),
                         {.batches = 2, .target = 1e-9, .two_stage = true});
     for (const Rgb& rays : twice.rays.pixels) CHECK(rays.x <= 48);
+    // Any number of batches, of which sanitizers see none overflow.
+    const int most = std::numeric_limits<int>::max();
+    const auto any =
+        render_adaptive(Halves{}, Camera{}, square(8, 64), {.batches = most});
+    CHECK(mean_of(any.rays) > 48);
 }
 
 TEST_CASE("adaptive: pixels beside rays that differ get more, and no others") {

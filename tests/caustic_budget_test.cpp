@@ -17,6 +17,7 @@
 #include "ljus/materials/glass.hpp"
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/mirror.hpp"
+#include "ljus/media/fog.hpp"
 #include "ljus/photons/budget.hpp"
 #include "ljus/render/budgeting.hpp"
 #include "ljus/scene/scene.hpp"
@@ -139,6 +140,8 @@ TEST_CASE("caustic_budget: shares follow the scatter, and no others do better") 
     CHECK(refusal([] {
               (void)share_out(std::array{1.0, -1.0});
           }) == "the scatter of an object is -1; it must be finite and at least 0.");
+    CHECK(refusal([] { (void)share_out(std::array{1e308, 1e308}); }) ==
+          "the sum of the scatter is infinity; it must be finite.");
     CHECK(refusal([] { (void)share_out(std::array{std::nan("")}); }).find("NaN") !=
           std::string::npos);
     CHECK(refusal([] { (void)share_out(std::array{1.0}, 1.5); }) ==
@@ -848,6 +851,23 @@ TEST_CASE("caustic_budget: lamps that nobody sees take no photons from the other
         settings.share_lights = asks;
         CHECK(caustic_light_shares(room, settings).empty() != asks);
     }
+}
+
+TEST_CASE("caustic_budget: photons in fog tell a pilot of lamps nothing") {
+    // They have the number of their medium in place of that of their light.
+    Scene<Shapes<Quad>, Materials<Lambertian>, Lights<PointLight>, Media<Fog<Box>>>
+        scene;
+    scene.add(Quad{{-5, 0, -5}, {0, 0, 10}, {10, 0, 0}}, scene.add(Lambertian{}));
+    for (const float x : {-2.0f, 2.0f})
+        scene.add(PointLight{.position{x, 1, 0}, .intensity = Rgb{4 + x}});
+    for (int i = 0; i < 3; ++i)
+        scene.add(Fog<Box>{.region{{-5, 0, -5}, {5, 3, 5}}, .scattering = Rgb{0.3f}});
+    const World world(std::move(scene));
+    PhotonPassSettings pass{.photons = 8000};
+    const auto shares = pilot_lights(world, pass, MapType::general);
+    REQUIRE(shares.size() == 2);
+    pass.keep = {31};
+    CHECK(pilot_lights(world, pass, MapType::general) == shares);
 }
 
 TEST_CASE("caustic_budget: who has one lamp, or gives shares, has no pilot of lamps") {

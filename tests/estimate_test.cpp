@@ -108,6 +108,9 @@ TEST_CASE("estimate: how often noise alone is this far from the truth") {
               doctest::Approx(1 - errors / std::sqrt(2 + errors * errors)));
         CHECK(ljus::chance_beyond(errors, 1e6) ==
               doctest::Approx(std::erfc(errors / std::sqrt(2.0))).epsilon(0.01));
+        for (const double count : {1e8, 1e12, 1e300}) // it is nearly normal
+            CHECK(std::abs(ljus::chance_beyond(errors, count) -
+                           std::erfc(errors / std::sqrt(2.0))) < 1e-6);
     }
     CHECK(ljus::chance_beyond(0, 5) == 1);
     for (const double errors : {1e6, std::numeric_limits<double>::infinity()})

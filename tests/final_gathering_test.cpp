@@ -26,6 +26,7 @@
 #include "ljus/materials/oren_nayar.hpp"
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
+#include "ljus/scenes/cornell_box.hpp"
 #include "ljus/scenes/furnaces.hpp"
 #include "support/box_sides.hpp"
 #include "support/closed_forms.hpp"
@@ -1128,6 +1129,29 @@ TEST_CASE(
     // Head on r = (1.4 / 3.4)^2 at each side: (1 - r) / (1 + r) pass, 71 %.
     CHECK(arrived > 220);
     CHECK(arrived < 400);
+}
+
+TEST_CASE("final gathering: a general map is enough, without points and caustics") {
+    const auto room = cornell_box();
+    const PhotonMap general = make_photon_map(
+        trace_photons(room.world, MapType::general, {.photons = 5000}).photons);
+    IrradiancePoints points;
+    points.disc = 0.5f;
+    GatherLookupT<float> lookup(points), empty(points);
+    const PhotonMap no_photons;
+    lookup.general = empty.general = &general;
+    empty.caustics = &no_photons;
+    const auto found = [&](const GatherLookupT<float>& known) {
+        auto stream = random_stream(test_seed(5), Pass::user, 0, 0);
+        Counts counts;
+        auto context = context_of(stream, counts);
+        const PathState path{.ray{.origin{0, 1, 0.5f}, .direction{0, -1, 0}},
+                             .met_diffuse = true,
+                             .depth = 1};
+        return gather_ray(room.world, known, path, 100, context).radiance;
+    };
+    CHECK(found(lookup).y > 0);
+    CHECK(found(lookup) == found(empty));
 }
 
 TEST_CASE("final gathering: a gather ray looks up the side that it meets") {

@@ -22,6 +22,7 @@
 #include "ljus/materials/lambertian.hpp"
 #include "ljus/materials/soap_film.hpp"
 #include "ljus/media/fog.hpp"
+#include "ljus/path/all_lights.hpp"
 #include "ljus/path/light_transport.hpp"
 #include "ljus/radiosity/patches.hpp"
 #include "ljus/render/first_hit.hpp"
@@ -514,6 +515,29 @@ TEST_CASE("fog: under a sky a ball of fog sends on what it does not absorb") {
             CHECK(seen.agrees_with(
                 (1 - (1 + 2 * tau) * std::exp(-2 * tau)) / (2 * tau * tau), 1e-4));
     }
+}
+
+TEST_CASE("fog: a sky from which no light arrives adds nothing") {
+    Scene<Shapes<Sphere>, Materials<Lambertian>, Lights<EnvironmentLight, PointLight>,
+          Media<Fog<Box>>>
+        scene;
+    const Lambertian grey{.albedo = Rgb{0.5f}};
+    scene.add(Sphere{}, scene.add(grey));
+    scene.add(EnvironmentLight{});
+    scene.add(PointLight{.position{0, 0, 2}, .intensity = Rgb{3}});
+    scene.add(Fog<Box>{.region{{-999, -999, -999}, {999, 999, 999}},
+                       .absorption = Rgb{0.5f}});
+    const World world(std::move(scene));
+    auto stream = random_stream(1, Pass::user, 0, 0);
+    PathState path{.ray{.origin{0, 0, 1.5f}, .direction{0, 0, -1}}};
+    const auto vertex = next_vertex(world, path, stream);
+    REQUIRE(vertex);
+    Counts counts;
+    auto context = context_of(stream, counts);
+    const Rgb seen =
+        sample_all_lights(world, *vertex, grey, {DirectLight::mis}, context);
+    CHECK(double(seen.y) ==
+          doctest::Approx(0.5 * std::numbers::inv_pi * 3 * std::exp(-0.5)));
 }
 
 TEST_CASE("fog: every way to find its light has the same mean in a room") {

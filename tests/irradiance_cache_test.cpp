@@ -11,6 +11,7 @@
 #include "ljus/render/gathering.hpp"
 #include "ljus/render/path_tracing.hpp"
 #include "support/mean.hpp"
+#include "support/refusal.hpp"
 #include "support/rooms.hpp"
 #include "support/student.hpp"
 
@@ -335,6 +336,12 @@ TEST_CASE("irradiance cache: a point in each square of pixels") {
     RenderSettings picture{.width = 10, .height = 30, .threads = 1};
     picture.progress = stop;
     CHECK_FALSE(make_irradiance_cache(scene, points, camera, picture, {}).complete);
+    for (const GatherSettings& bad :
+         {GatherSettings{.rays = 0}, GatherSettings{.tile = 0},
+          GatherSettings{.nearest = 65}, GatherSettings{.nearest = 1}})
+        CHECK(ljus_test::refusal([&] {
+                  (void)make_irradiance_cache(scene, points, camera, picture, bad);
+              }).starts_with("gather."));
 }
 
 TEST_CASE("irradiance cache: each square has numbers of its own, with each seed") {

@@ -91,6 +91,9 @@ TEST_CASE("lens: the circle of confusion is the thin lens' 1/F = 1/s + 1/d") {
                       doctest::Approx(on_film / film * 400).epsilon(1e-9));
             }
     CHECK(circle_of_confusion(camera<double>(), 5.0, 400) == 0);
+    const auto lens = camera<double>(0.07, 5.0); // of a star: the opening, seen 5 away
+    CHECK(circle_of_confusion(lens, std::numeric_limits<double>::infinity(), 400) ==
+          doctest::Approx(0.14 / (5 * 2 * lens.pinhole.half_height) * 400));
 }
 
 TEST_CASE("lens: a point out of focus is a disc of that diameter in the picture") {

@@ -139,6 +139,9 @@ TEST_CASE("light_transport: an expression that is none is refused with its place
     CHECK(refusal(std::string(64, 'D').c_str()).find("63 letters") !=
           std::string::npos);
     CHECK(refusal(std::string(63, 'D').c_str()) == "");
+    CHECK(refusal((std::string(63, '(') + 'D' + std::string(63, ')')).c_str()) == "");
+    CHECK(refusal(std::string(1'000'000, '(').c_str()).find("63 opening brackets at") !=
+          std::string::npos); // and no stack overflows
 }
 
 TEST_CASE("light_transport: the parts of a picture add up to the whole") {

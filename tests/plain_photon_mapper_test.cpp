@@ -10,6 +10,7 @@
 #include <ljus/ljus.hpp>
 #include <ljus/render/plain_photon_mapping.hpp>
 #include <ljus/scenes/cornell_box.hpp>
+#include <ljus/scenes/furnaces.hpp>
 
 #include "support/seed.hpp"
 
@@ -57,6 +58,14 @@ Parts measure(const Renderer& renderer, const Camera& camera, int first_seed) {
 }
 
 } // namespace
+
+TEST_CASE("the plain photon mapper comes to an end where no light is lost") {
+    const auto furnace = sphere_furnace(Rgb{1}, Rgb{1});
+    const Image image = render(PlainPhotonMapper(furnace.world, PhotonMap{}),
+                               furnace.camera, {.width = 1, .height = 1, .samples = 1})
+                            .image;
+    CHECK(image.pixels[0].x > 500);
+}
 
 // Nine differences of two means of 24: beyond 5 standard errors (Student's t with 46
 // degrees of freedom) with a chance of 9 * 9e-6, once in 12 000 seeds. Run with 20

@@ -478,6 +478,11 @@ TEST_CASE("radiosity: how far a solver goes, and what it refuses, channel by cha
                       .starts_with(
                           "the largest fraction of its light that a patch regains"));
         }
+    for (const SolveSettings& bad :
+         {SolveSettings{.tolerance = std::nan("")}, SolveSettings{.tolerance = -1},
+          SolveSettings{.max_sweeps = -1}})
+        CHECK(refusal([&] { (void)solve_radiosity(closed, of(Color(0.5)), bad); })
+                  .ends_with("; it must be at least 0."));
     CHECK_NOTHROW((void)solve_radiosity(closed, of(Color(1 - 1e-11)),
                                         {.solver = RadiositySolver::lu}));
 }

@@ -91,6 +91,17 @@ PhotonMappingSettings mapping(IndirectLight indirect, std::uint64_t seed,
     return settings;
 }
 
+/// Radiance 1 on the right of the picture, and NaN on the left.
+struct HalfUnknown {
+    using Stream = RandomStream;
+};
+Rgb radiance(const HalfUnknown&, const Ray& ray, auto& context) {
+    const Rgb seen{ray.direction.x > 0 ? 1 : std::nanf("")};
+    context.log.begin();
+    context.log.term("test", "L", seen);
+    return seen;
+}
+
 } // namespace
 
 TEST_CASE("side_by_side: direct light of a small lamp, by all renderers") {
@@ -239,6 +250,9 @@ TEST_CASE("side_by_side: classes are measured, and add up to the picture") {
             (std::string(what) + " is 0; it must be at least 1.").c_str(),
             std::invalid_argument);
     }
+    // A sample that is not finite is left out, as in the picture.
+    const auto half = class_means(HalfUnknown{}, room.camera, one, std::span(classes));
+    CHECK(half.back().y == doctest::Approx(0.5));
     // With a filter each ray has a weight of its own; the picture need not be square.
     for (const Filter filter : {Filter::gaussian, Filter::mitchell}) {
         RenderSettings wide = one;

@@ -276,6 +276,8 @@ TEST_CASE("volume_photons: the radius is the distance of the k-th other photon")
     same.back().position.x += 2;
     CHECK(make_volume_map(same).photons[7].radius == doctest::Approx(2e-3f));
     CHECK(make_volume_map(std::vector<Photon>{}).empty());
+    same[3].flux.y = std::nanf("");
+    CHECK(refusal([&] { (void)make_volume_map(same); }).starts_with("photon.flux is "));
 }
 
 TEST_CASE(

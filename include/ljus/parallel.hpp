@@ -236,7 +236,7 @@ LJUS_CORE_INLINE bool run_blocks(long long count, BlockBody body,
 /// \param options  The number of threads and the callback. The callback is called after
 ///                 a block, unless another thread is calling it. `done` is larger in
 ///                 each call. When all blocks are done, (count, count) has been
-///                 reported.
+///                 reported, unless an earlier call returned false.
 /// \return True if all blocks ran; false if `progress` stopped the loop.
 /// \throws std::invalid_argument  if `options.threads` is not within [0, 1024]. If a
 ///         body or `progress` throws, no further block begins, and the loop throws the

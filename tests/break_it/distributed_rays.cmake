@@ -60,8 +60,8 @@ ljus_break_it(NAME lens-camera-square HEADER scene/lens_camera.hpp TEST lens_cam
 
 # The circle of confusion as if the film stood at infinity.
 ljus_break_it(NAME lens-camera-confusion HEADER scene/lens_camera.hpp TEST lens_camera
-    FROM "/ (depth * camera.focus);"
-    TO   "/ (camera.focus * camera.focus);"
+    FROM "camera.focus / depth) / camera.focus"
+    TO   "depth / camera.focus) / camera.focus"
     CASES "lens: the circle*")
 
 # The same order in all draws: the time of a ray tells its place on the lens.

@@ -15,7 +15,8 @@ namespace ljus {
 /// \{
 
 /// For each class of paths, the radiance that it adds to a picture, as a mean over all
-/// pixels. RenderSettings::progress is not called.
+/// pixels. RenderSettings::progress is not called. A sample that is not finite is left
+/// out.
 ///
 /// All classes are measured on the same random paths. The means of disjoint classes
 /// that cover all paths add up to the mean of the picture. The light of a photon map is
@@ -47,6 +48,7 @@ class_means(const R& renderer, const C& camera, const RenderSettings& picture,
                 detail::ClassesLog<T> log(classes); // without the pixel filter
                 const auto found =
                     trace_pixel(renderer, camera, rays, {x, int(y), i}, counts, log);
+                if (!is_finite(found.radiance)) continue; // as in render()
                 for (std::size_t k = 0; k < classes.size(); ++k)
                     sums[k] += double(found.weight) * RgbT<double>(log.logs[k].sum);
             }

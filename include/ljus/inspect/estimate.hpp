@@ -71,6 +71,7 @@ constexpr void add(Estimate& estimate, double x) noexcept {
 [[nodiscard]] inline double chance_beyond(double errors, double count) {
     // With t = sqrt(n) tan(x) the density of x is proportional to cos(x)^(n - 1), which
     // is 0 in double beyond 40 / sqrt(n).
+    count = std::fmin(count, 1e8); // where the distribution is nearly normal
     const double n = count - 1, root = std::sqrt(n);
     const double end = std::fmin(std::atan(errors / root), 40 / root);
     constexpr int steps = 1000; // of the midpoint rule

@@ -169,7 +169,8 @@ template <std::floating_point T>
 /// Renderer and the settings of render().
 /// \return A text: the first rays with each vertex and each term, then the mean over
 ///         all rays for each kind of path, such as "E D L shadow ray 0.31 0.30 0.28".
-/// \throws std::invalid_argument  if the pixel lies outside the picture.
+/// \throws std::invalid_argument  as render(), or if the pixel lies outside the
+///         picture.
 template <typename R, CameraLike C>
 [[nodiscard]] std::string explain(const R& renderer, const C& camera,
                                   const RenderSettings& picture, int x, int y) {

@@ -66,9 +66,10 @@ template <std::floating_point T>
 }
 
 /// The position of a photon in the picture, in pixels from the upper left corner.
-/// Nothing if the photon is outside the picture, on the side of its surface that does
-/// not face the camera, or occluded, even by glass. An occluder counts only if it is
-/// nearer than the photon by more than a thousandth of the distance.
+/// Nothing if the photon is outside the picture, not on a surface, on the side of its
+/// surface that does not face the camera, or occluded, even by glass. An occluder
+/// counts only if it is nearer than the photon by more than a thousandth of the
+/// distance.
 /// \cost One ray.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<Vec2T<T>>

@@ -129,6 +129,7 @@ template <AnyWorld W, std::floating_point T>
     if constexpr (has_sky<W>)
         for (std::uint32_t light = 0; light < world.light_count(); ++light) {
             const SkyT<T> sky = sky_of(world, light, path.ray.direction);
+            if (is_black(sky.radiance)) continue; // its density may be 0, as `reaching`
             sum += share(sky.pdf) * sky.radiance;
         }
     return sum;
@@ -343,8 +344,8 @@ struct DirectLightSettings {
     int rays = 1;
     /// The lobes from which the next ray of the path is sampled, if that ray is to
     /// serve as the scattered ray of multiple importance sampling. The caller must then
-    /// add its light by detail::met_light(). With Lobes::none an extra ray is traced.
-    /// In fog, only Lobes::none is allowed.
+    /// add its light by detail::met_light(). With Lobes::none, and always on a
+    /// Lambertian surface, an extra ray is traced. In fog, only Lobes::none is allowed.
     Lobes next = Lobes::none;
 };
 
@@ -364,7 +365,7 @@ template <AnyWorld W, std::floating_point T, Material M, typename Context,
                                         Context& context, Verdicts verdicts = {}) {
     const DirectLight how = settings.how;
     const int rays = settings.rays;
-    // A matt surface never uses the path's next ray. This is decided at compile time.
+    // Decided at compile time for a matt surface.
     const Lobes next = std::same_as<M, LambertianT<T>> ? Lobes::none : settings.next;
     if constexpr (std::same_as<M, LambertianT<T>>)
         if (how == DirectLight::analytic)

@@ -60,7 +60,8 @@ struct LightPathExpressionReader {
     };
     LightPathExpression& result;
     std::string_view expression, rest;
-    std::size_t letters = 0; // so far; state 0 is the start
+    std::size_t letters = 0;  // so far; state 0 is the start
+    std::size_t brackets = 0; // opened so far; each nests four calls
 
     [[noreturn]] void refuse(const char* what) const {
         const std::size_t place = expression.size() - rest.size();
@@ -112,6 +113,7 @@ struct LightPathExpressionReader {
     }
     constexpr Part atom() {
         if (at("(")) {
+            if (++brackets == 64) refuse("more than 63 opening brackets");
             take();
             const Part inside = alternatives();
             if (!at(")")) refuse("no closing bracket");
@@ -129,7 +131,8 @@ struct LightPathExpressionReader {
 } // namespace detail
 
 /// Compiles a class of paths, such as "ES*D?L": at most 63 letters E, D, S, L and '.',
-/// which stands for D or S, with the usual operators `| ( ) * + ?`.
+/// which stands for D or S, with the usual operators `| ( ) * + ?` and at most 63 pairs
+/// of brackets.
 /// \throws std::invalid_argument  for an invalid expression, with the position of the
 ///         error.
 [[nodiscard]] constexpr LightPathExpression

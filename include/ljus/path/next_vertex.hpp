@@ -452,9 +452,10 @@ template <AnyWorld W, std::floating_point T>
 ///         otherwise the product of the transmittances of thin surfaces and of fog
 ///         between the points. A surface inside a body of higher priority does not
 ///         occlude.
-/// \cost One call of occluded(). If a hidden surface lies between the points, there are
-///       calls of closest_hit() as well, one more than there are surfaces between them.
-///       If the scene has thin surfaces, there are only these calls.
+/// \cost One call of occluded(). In a scene with priorities, if `from` lies in the box
+///       of all bodies and is occluded, those of bodies_around() follow, and calls of
+///       closest_hit(), one more than there are hidden surfaces on the way. In a scene
+///       with thin surfaces there are only these calls, one per thin surface as well.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] RgbT<T> visibility(const W& world, const SurfacePointT<T>& from,
                                  const SurfacePointT<T>& to, T time = T(0)) {
@@ -570,14 +571,17 @@ medium_of_rank(const W& world, std::uint8_t rank) {
 
 } // namespace detail
 
-/// The absorption coefficient at the origin of a ray. If several bodies contain the
-/// origin, the innermost body counts, or the body with the highest priority if the
-/// scene has priorities. A body contains the origin if the ray leaves the body without
-/// having entered it. A body must be closed; it may consist of several shapes.
+/// The absorption coefficient at the origin of a ray, whose t_max is ignored. If
+/// several bodies contain the origin, the innermost body counts, or the body with the
+/// highest priority if the scene has priorities. A body contains the origin if the ray
+/// leaves the body without having entered it. A body must be closed; it may consist of
+/// several shapes.
 /// \return Per scene unit; nothing outside all bodies.
-/// \cost One call of closest_hit() per surface up to the end of the body.
+/// \cost One call of closest_hit() per surface up to the end of the body; outside all
+///       bodies, up to the end of the scene.
 template <AnyWorld W, std::floating_point T>
 [[nodiscard]] std::optional<RgbT<T>> interior_at(const W& world, RayT<T> ray) {
+    ray.t_max = std::numeric_limits<T>::infinity();
     if (world.has_priorities())
         return detail::medium_of_rank(world, bodies_at(world, ray).top());
     std::array<MaterialId, 16> entered{};
@@ -652,9 +656,7 @@ template <AnyWorld W, std::floating_point T>
 [[nodiscard]] bool meets_fog(const W& world, const RayT<T>& ray) {
     if (!world.has_fog()) return false;
     if (!detail::lists_media<W> || !world.may_be_in_medium(ray.origin)) return true;
-    return !interior_at(
-        world,
-        RayT<T>{.origin = ray.origin, .direction = ray.direction, .time = ray.time});
+    return !interior_at(world, ray);
 }
 
 /// The fraction of light that crosses the fog along a ray; 1 inside a body. The ray
@@ -699,10 +701,10 @@ inline void set_bodies(VertexT<T>& vertex, const W& world, PathStateT<T>& path,
 } // namespace detail
 
 /// Advances a path to its next vertex. The throughput is multiplied by the
-/// transmittance of media and thin surfaces on the way. At the first material that
-/// disperses light, the throughput is also multiplied by the colour of the wavelength
-/// that is chosen there. The stream is advanced to the start of the bounce; one number
-/// is drawn per thin surface, and one if a wavelength is chosen.
+/// transmittance of bodies and thin surfaces on the way, but not by that of fog. At the
+/// first material that disperses light, the throughput is also multiplied by the colour
+/// of the wavelength that is chosen there. The stream is advanced to the start of the
+/// bounce; one number is drawn per thin surface, and one if a wavelength is chosen.
 /// \return The vertex; nothing if the path leaves the scene, or if it meets more than
 ///         max_thin_surfaces surfaces, which makes its throughput 0.
 // [next_vertex]

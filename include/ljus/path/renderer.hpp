@@ -14,7 +14,7 @@
 namespace ljus {
 
 /// \defgroup counts Counts
-/// \brief Counters of rays and photons. They are the same on every machine.
+/// \brief Counters of rays and photons. They do not depend on the number of threads.
 /// \{
 
 /// The numbers of rays and photons of a rendering.

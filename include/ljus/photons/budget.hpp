@@ -23,7 +23,7 @@ namespace ljus {
 /// \f$ n_k \propto a_k \f$ (Neyman). As the measured a_k may be wrong, the fraction
 /// `floor` of the photons is distributed evenly. With correct a_k, the sum of the
 /// variances is then at most 1/(1 - floor) times the smallest possible.
-/// \param scatter  The a_k: finite and at least 0.
+/// \param scatter  The a_k: at least 0, with a finite sum.
 /// \param floor    The fraction that is distributed evenly, in [0, 1].
 /// \return One fraction per object, at least `floor` divided by the number of objects;
 ///         the sum is 1. Equal fractions if all a_k are 0.
@@ -38,6 +38,7 @@ namespace ljus {
                 "finite and at least 0");
         sum += a;
     }
+    require(std::isfinite(sum), "the sum of the scatter", sum, "finite");
     std::vector<double> shares;
     for (const double a : scatter) {
         const double equal = 1 / double(scatter.size());
@@ -107,6 +108,7 @@ trace_pilot(const W& world, PhotonPassSettings pass, std::size_t object,
     pass.shares.assign(objects, 0.0);
     pass.shares[object] = 1;
     pass.photons = pass.give_up = paths;
+    pass.keep.bits &= all_kinds.bits; // a photon in fog has no normal
     pass.iteration = ~pass.iteration - object;
     pass.progress = no_progress;
     return trace_photons(world, MapType::caustics, pass);
@@ -262,6 +264,7 @@ template <AnyWorld W, typename Weight = detail::AllAlike>
     pass.give_up = pass.photons;
     pass.equal_lights = true;
     pass.shadow_photons = false;
+    pass.keep.bits &= all_kinds.bits; // a photon in fog does not know its light
     pass.shares = pass.light_shares = {};
     pass.iteration = ~pass.iteration - (1u << 31); // beyond the pilots of objects
     pass.progress = no_progress;

@@ -186,12 +186,12 @@ template <AnyWorld W, std::floating_point T, typename Context>
 /// and indirect light from the maps.
 /// \param general   The general map. Its indirect photons are used, except for those
 ///                  that are lookup points.
-/// \param caustics  The caustics map; may be empty.
+/// \param caustics  The caustics map; may be empty or null.
 /// \param vertex    The point at time 0, with `wo` on the side of the irradiance.
 /// \param radius    The largest radius of an estimate, in scene units.
 template <AnyWorld W, std::floating_point T, typename Context>
 [[nodiscard]] RgbT<T> irradiance_of_point(const W& world, const PhotonMapT<T>& general,
-                                          const PhotonMapT<T>& caustics,
+                                          const PhotonMapT<T>* caustics,
                                           const VertexT<T>& vertex,
                                           const IrradiancePointSettings& settings,
                                           T radius, Context& context) {
@@ -201,13 +201,13 @@ template <AnyWorld W, std::floating_point T, typename Context>
     // [at_point]
     RgbT<T> sum = direct_at_point(world, vertex, settings.shadow_rays, context);
     const SourcePhotonsT<T> indirect{general, PhotonKind::indirect, settings.every};
-    const SourcePhotonsT<T> caustic{caustics, PhotonKind::caustic};
     sum +=
         estimate_irradiance(world, general, vertex, side, settings, radius, indirect) *
         (every / (every - 1));
-    if (!caustics.empty())
-        sum += estimate_irradiance(world, caustics, vertex, side, settings, radius,
-                                   caustic);
+    if (caustics && !caustics->empty())
+        sum += estimate_irradiance(
+            world, *caustics, vertex, side, settings, radius,
+            SourcePhotonsT<T>{*caustics, PhotonKind::caustic});
     // [at_point]
     return sum;
 }
@@ -261,7 +261,7 @@ template <AnyWorld W, std::floating_point T>
         Counts counts;
         auto context = context_of(stream, counts);
         records[i].irradiance = detail::irradiance_of_point(
-            world, general, caustics, *vertex, settings, radius, context);
+            world, general, &caustics, *vertex, settings, radius, context);
     };
     (void)detail::parallel_each(chosen.size(), 64, work_out, {.threads = threads});
     std::size_t kept = 0;

@@ -47,7 +47,8 @@ struct PhotonPassSettings {
     long long photons = 100000;  ///< Number of paths to emit.
     std::uint64_t seed = 1;      ///< Seed of the random streams.
     std::uint64_t iteration = 0; ///< Each value gives other random numbers.
-    int max_bounces = 1000;      ///< Largest number of surfaces per photon.
+    int max_bounces = 1000;      ///< Largest number of surfaces on the path of a
+                                 ///< photon; a scattering in fog counts as one.
     bool shadow_photons = true;  ///< Whether the general map stores shadow photons.
     /// The kinds of photons to store besides shadow photons.
     PhotonKinds keep = light_kinds;
@@ -68,7 +69,7 @@ struct PhotonPassSettings {
     double max_memory = 4e9; ///< Limit in bytes for the photons and their map.
     /// The pass ends if it has stored no photon after this number of paths.
     long long give_up = 1LL << 20;
-    int threads = 0; ///< Number of threads; 0: all processors.
+    int threads = 0; ///< Number of threads, as in ParallelSettings.
     /// Called with (done, total); returns false to stop.
     Progress progress = no_progress;
 };

@@ -121,8 +121,8 @@ template <std::floating_point T>
 /// \param settings  The radius of the photons.
 /// \param threads   As in ParallelSettings.
 /// \return The map, the same for any number of threads.
-/// \throws std::invalid_argument  if a setting is out of range, or a position is not
-///         finite.
+/// \throws std::invalid_argument  if a setting is out of range, or a position or a flux
+///         is not finite.
 /// \cost One search per photon if settings.radius is 0.
 template <std::floating_point T>
 [[nodiscard, gnu::cold]] VolumeMapT<T>
@@ -130,10 +130,12 @@ make_volume_map(const std::vector<PhotonT<T>>& photons,
                 const BeamEstimateSettings& settings = {}, int threads = 0) {
     check(settings);
     std::vector<VolumePhotonT<T>> found;
-    for (const PhotonT<T>& photon : photons)
-        if (photon.kind == PhotonKind::fog)
-            found.push_back({photon.position, photon.direction, photon.flux,
-                             T(settings.radius), photon.light});
+    for (const PhotonT<T>& photon : photons) {
+        if (photon.kind != PhotonKind::fog) continue;
+        require_finite("photon.flux", photon.flux);
+        found.push_back({photon.position, photon.direction, photon.flux,
+                         T(settings.radius), photon.light});
+    }
     if (settings.radius == 0) detail::set_radii(found, settings.nearest, threads);
     std::vector<BoxT<T>> boxes;
     for (const auto& [position, direction, flux, radius, medium] : found)

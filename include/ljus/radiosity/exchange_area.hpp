@@ -163,10 +163,10 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 ///   = \frac{1}{2\pi} \oint\!\oint \ln r\; dx_1 \cdot dx_2. \f]
 /// Here r is the distance of two points x_1 and x_2, and the angles theta are those of
 /// the line between them to the normals. For facets of size s at the distance d, the
-/// relative error is about \f$ 10^{-15} (d/s)^2 \f$.
+/// relative error is at most about \f$ 10^{-15} (d/s)^2 \f$.
 /// \return In squared scene units, at least 0.
-/// \cost 1 microsecond for two axis-aligned rectangles, 40 microseconds for two
-///       rectangles at other angles.
+/// \cost 1 microsecond for two axis-aligned rectangles, 30 to 120 microseconds for two
+///       that are close together at other angles.
 /// \report{Section 2.2}
 // [exchange_area]
 [[nodiscard]] inline double exchange_area(const Facet& one, const Facet& two) noexcept {
@@ -197,8 +197,8 @@ pieces_of_edge(const glm::dvec3& way, const glm::dvec3& u, const glm::dvec3& v,
 /// \{
 
 /// The form factor from a rectangular floor to a wall that stands on one of its edges;
-/// 0.2000438 for two unit squares \cite howell2010.
-/// \param edge    Length of the common edge, above 0.
+/// 0.2000438 for two unit squares \cite howell2010. All lengths must be above 0.
+/// \param edge    Length of the common edge.
 /// \param floor   Length of the floor perpendicular to this edge.
 /// \param height  Height of the wall.
 [[nodiscard]] inline double form_factor_corner(double edge, double floor,

@@ -33,8 +33,8 @@ struct FormFactors {
     [[nodiscard]] double operator()(std::size_t i, std::size_t j) const noexcept {
         return row(i)[j] / area[i];
     }
-    /// The fraction of the flux of patch i that arrives at any patch. It is 1 in a
-    /// closed room.
+    /// The fraction of the flux of patch i that arrives at any patch. In a closed room
+    /// it is 1, but for the noise of rays; see FormFactorSettings::closed.
     [[nodiscard]] double row_sum(std::size_t i) const noexcept {
         return detail::pairwise_sum(row(i)) / area[i];
     }

@@ -67,7 +67,8 @@ inline std::uint32_t cells_along(double length, double size) noexcept {
 /// \name Grids for shapes
 /// \{
 
-/// The grid for the front of a shape. The edges of its cells are at most `size` long.
+/// The grid for the front of a shape. The edges of its cells are at most `size` long,
+/// except for those of a ball towards its poles.
 template <std::floating_point T>
 [[nodiscard]] PatchGrid patch_grid(const QuadT<T>& shape, double size) noexcept {
     return {.columns = detail::cells_along(double(glm::length(shape.edge_u)), size),

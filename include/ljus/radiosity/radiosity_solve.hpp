@@ -32,9 +32,9 @@ enum class RadiositySolver : std::uint8_t {
 struct SolveSettings {
     RadiositySolver solver = RadiositySolver::shooting; ///< The solver.
     /// The solver stops when the unshot flux is at most this fraction of the emitted
-    /// flux, in every channel.
+    /// flux, in every channel. At least 0.
     double tolerance = 1e-12;
-    int max_sweeps = 10000; ///< The largest number of sweeps.
+    int max_sweeps = 10000; ///< The largest number of sweeps, at least 0.
     /// Number of threads, as in ParallelSettings, for `jacobi`, and for the residual
     /// that is computed after `lu`. The other solvers use one thread.
     int threads = 0;
@@ -194,14 +194,16 @@ brightest_patch(const FormFactors& factors, const std::vector<RgbT<double>>& uns
 /// largest albedo rho, so that log(epsilon)/log(rho) sweeps are enough for a tolerance
 /// epsilon.
 /// \return The radiosity, and the unshot flux after each sweep.
-/// \throws std::invalid_argument  if the albedo of a patch times its row sum is not
-///         below 1. This happens for an albedo of 1 in a closed room, or if the noise
-///         of rays makes a row sum larger than 1.
+/// \throws std::invalid_argument  if a setting is out of range, or if the albedo of a
+///         patch times its row sum is not below 1. This happens for an albedo of 1 in a
+///         closed room, or if the noise of rays makes a row sum larger than 1.
 /// \cost For n patches, n^2 multiplications per sweep and channel; n^3/3 for `lu`.
 /// \report{Section 2.2}
 [[nodiscard]] inline RadiositySolution
 solve_radiosity(const FormFactors& factors, const std::vector<Patch>& patches,
                 const SolveSettings& settings = {}) {
+    require(settings.tolerance >= 0, "tolerance", settings.tolerance, "at least 0");
+    require_at_least("max_sweeps", settings.max_sweeps, 0);
     detail::require_loss(factors, patches);
     const std::size_t n = patches.size();
     RadiositySolution solution{.radiosity = std::vector<RgbT<double>>(n)};

@@ -311,7 +311,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
                    parts[b].variance / parts[b].rays;
         });
     const int begun = rule.two_stage ? 1 : 0; // the batch that begins the second stage
-    const int most_batches = 1 + rule.batches - begun;
+    const double most_batches = 1.0 + rule.batches - begun;
     bool any = false;
     for (const std::size_t i : order) {
         double batches = 0;
@@ -331,7 +331,7 @@ inline bool plan_round(std::vector<AdaptiveBlock>& blocks, const AdaptiveSetting
             batches = std::ceil(lacking / rule.more - 1e-6);
         }
         const double cost = std::max(blocks[i].more, 1) * parts[i].pixels;
-        batches = std::min({batches, double(most_batches - blocks[i].batches),
+        batches = std::min({batches, most_batches - blocks[i].batches,
                             std::floor(spare / cost * (1 + 1e-9))});
         blocks[i].wanted = static_cast<int>(std::max(batches, 0.0));
         spare -= cost * blocks[i].wanted;

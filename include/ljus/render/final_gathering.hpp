@@ -107,7 +107,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
     if (!lookup.general) return RgbT<T>{T(0)};
     VertexT<T> vertex = resting;
     vertex.wo = {T(0), T(0), side};
-    return irradiance_of_point(world, *lookup.general, *lookup.caustics, vertex,
+    return irradiance_of_point(world, *lookup.general, lookup.caustics, vertex,
                                lookup.irradiance, lookup.points->disc, context);
 }
 

@@ -17,7 +17,7 @@ enum class FirstHit {
     /// The shading normal n on the visible side, as the colour (n + 1)/2; 1/2 for a ray
     /// without a hit.
     normals,
-    albedo, ///< The directional albedo, in [0, 1]; 0 for a ray without a hit.
+    albedo, ///< sample_albedo(), in [0, 1] on average; 0 for a ray without a hit.
     depth   ///< The distance along the ray, in scene units; 0 for a ray without a hit.
 };
 

@@ -60,8 +60,7 @@ template <typename Mapper, std::floating_point T>
 /// \param mapper    A PhotonMapper with the ability Gathering.
 /// \param vertex    The surface.
 /// \param material  Its material.
-/// \param context   The random stream gives up to three numbers. The counts record the
-///                  lookup.
+/// \param context   The random stream of the path; counts the lookup.
 /// \return W/(m^2 sr).
 template <typename Mapper, std::floating_point T, Material M, typename Context>
 [[nodiscard]] RgbT<T> known_light(const Mapper& mapper, const VertexT<T>& vertex,

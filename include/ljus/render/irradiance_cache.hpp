@@ -219,13 +219,17 @@ void spread_brightest(IrradianceCacheT<T>& cache, const GatherSettings& settings
 ///                   with a similar normal, where k is the member `nearest` and the
 ///                   point itself is the first.
 /// \param threads    As in ParallelSettings; the cache does not depend on it.
-/// \throws std::invalid_argument  if a position is not finite.
+/// \throws std::invalid_argument  if a position is not finite, or `nearest` is not
+///         within [2, 64].
 /// \cost O(n log n) for n points.
 template <std::floating_point T>
 [[nodiscard]] IrradianceCacheT<T>
 make_irradiance_cache(const std::vector<Vec3T<T>>& positions,
                       const std::vector<GatheredT<T>>& records,
                       const GatherSettings& settings, int threads = 0) {
+    require(settings.nearest >= 2 && settings.nearest <= max_cache_nearest,
+            "gather.nearest", static_cast<long long>(settings.nearest),
+            "within [2, 64]");
     IrradianceCacheT<T> cache;
     cache.tree = KdTree8T<T>(positions, threads);
     cache.records.reserve(records.size());
@@ -243,6 +247,7 @@ make_irradiance_cache(const std::vector<Vec3T<T>>& positions,
 /// \param picture   Size, seed, threads, progress.
 /// \param settings  Settings of gathering.
 /// \return The cache, the same for any number of threads.
+/// \throws std::invalid_argument  if `tile` or `rays` is below 1, or as above.
 /// \cost For each tile one camera ray, and `settings.rays` gather rays for each point.
 template <AnyWorld W, CameraLike C>
 [[nodiscard]] IrradianceCacheT<typename W::Scalar>
@@ -250,6 +255,8 @@ make_irradiance_cache(const W& world, const GatherLookupT<typename W::Scalar>& l
                       const C& camera, const RenderSettings& picture,
                       const GatherSettings& settings) {
     using T = typename W::Scalar;
+    require_at_least("gather.tile", settings.tile, 1);
+    require_at_least("gather.rays", settings.rays, 1);
     // [make_irradiance_cache]
     const int tile = settings.tile;
     const int columns = (picture.width + tile - 1) / tile;

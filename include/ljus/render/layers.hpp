@@ -46,8 +46,8 @@ struct PathLayer {
 /// position and object are not means. They belong to the first surface on one ray,
 /// through the middle of the pixel and of the lens, at the middle of the exposure.
 struct LayerSettings {
-    /// "N": the mean shading normal on the visible side, in world space; its length is
-    /// at most 1. A ray that leaves the scene adds 0.
+    /// "N": the mean shading normal on the visible side, in world space; with
+    /// Filter::box its length is at most 1. A ray that leaves the scene adds 0.
     bool normal = false;
     /// "albedo": the mean directional albedo, times the albedo of the mirrors and glass
     /// that the ray has met before. A ray that leaves the scene adds 0.

@@ -42,9 +42,9 @@ PlainPathTracer(const W&, int = 100) -> PlainPathTracer<W>;
 /// only if it is seen directly or via mirrors and glass, where no shadow ray could find
 /// it.
 ///
-/// The plain tracer has no MIS weights, and ignores media, thin surfaces and shading
-/// normals. In a scene without these its expected value is that of PathTracer; only the
-/// noise differs.
+/// The plain tracer has no MIS weights, and ignores media, thin surfaces, shading
+/// normals, dispersion and motion. In a scene without these its expected value is that
+/// of PathTracer; only the noise differs.
 /// \param tracer   The world and the depth.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.

@@ -51,11 +51,11 @@ PlainPhotonMapper(const W&, PhotonMapT<typename W::Scalar>,
                   const DensityEstimateSettings& = {}) -> PlainPhotonMapper<W>;
 
 /// The radiance that one camera path finds, by emission, shadow rays, the caustics map
-/// and one indirect ray at each surface.
+/// and one indirect ray at each of at most 1000 surfaces.
 ///
-/// The plain mapper ignores media, thin surfaces and shading normals. In a scene
-/// without these its expected value is that of PhotonMapper with IndirectLight::rays;
-/// only the noise differs.
+/// The plain mapper ignores media, thin surfaces, shading normals, dispersion and
+/// motion. In a scene without these its expected value is that of PhotonMapper with
+/// IndirectLight::rays; only the noise differs.
 /// \param mapper   World and map.
 /// \param ray      A primary ray.
 /// \param context  The random stream of this path; counts its rays.
@@ -67,7 +67,7 @@ template <AnyWorld W, std::floating_point T, typename Context>
     const W& world = mapper.world();
     RgbT<T> sum{T(0)}, throughput{T(1)};
     bool met_diffuse = false, goes_on = true;
-    for (int depth = 1; goes_on; ++depth) {
+    for (int depth = 1; goes_on && depth <= 1000; ++depth) {
         const auto hit = closest_hit(world, ray);
         if (!hit) {
             if (!met_diffuse) sum += throughput * sky_radiance(world, ray.direction);

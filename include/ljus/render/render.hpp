@@ -27,7 +27,7 @@ struct RenderSettings {
     int height = 400;       ///< Height in pixels, at least 1.
     int samples = 64;       ///< Exact number of primary rays per pixel, at least 1.
     std::uint64_t seed = 1; ///< Seed of the random streams.
-    int threads = 0;        ///< Number of threads; 0: all processors.
+    int threads = 0;        ///< Number of threads, as in ParallelSettings.
     Progress progress = no_progress; ///< Called with (done, total); returns false to
                                      ///< stop.
     Sampling sampling = Sampling::multi_jittered; ///< Positions of rays within a pixel.

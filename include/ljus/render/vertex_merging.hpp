@@ -23,8 +23,8 @@ namespace ljus {
 /// | merging    | a path with a bounce| one of its vertices lies within the radius    |
 ///
 /// Light that several of these methods can find is shared among them by the balance
-/// heuristic. With radius 0 the renderer is bidirectional path tracing, which has no
-/// bias.
+/// heuristic. With radius 0 the renderer is bidirectional path tracing. It then has no
+/// bias, except that the caustics of points and spots are missing.
 /// \{
 
 /// A renderer that traces light paths in its constructor and joins them to camera

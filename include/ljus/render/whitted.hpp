@@ -131,7 +131,8 @@ void trace_branch(const WhittedTracer<W>& tracer, PathStateT<T> path, Context& c
 /// The radiance that the tree of one primary ray finds.
 ///
 /// The tree is deterministic by default: glass sends both rays, and each light has one
-/// point. Only thin surfaces, and materials with several lobes, choose at random.
+/// point. Only thin surfaces, materials with several lobes, glass with interpolated
+/// normals, dispersion and motion choose at random.
 /// \param tracer   The world and the settings.
 /// \param ray      A primary ray.
 /// \param context  The random stream; counts rays, logs terms.

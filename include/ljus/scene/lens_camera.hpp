@@ -71,13 +71,13 @@ template <std::floating_point T, StreamLike Stream>
 
 /// The diameter, in pixels, of the circle of confusion: the disc in the picture that a
 /// point out of focus becomes. `depth` is the distance of the point along the view, in
-/// scene units and above 0. \cite cook1984
+/// scene units and above 0; it may be infinite. \cite cook1984
 // [circle of confusion]
 template <std::floating_point T>
 [[nodiscard]] T circle_of_confusion(const LensCameraT<T>& camera, T depth,
                                     int height) noexcept {
     const T diameter = T(2) * camera.radius; // of the lens; `there` is at distance 1:
-    const T there = diameter * std::abs(depth - camera.focus) / (depth * camera.focus);
+    const T there = diameter * std::abs(T(1) - camera.focus / depth) / camera.focus;
     return there * T(height) / (T(2) * camera.pinhole.half_height);
 }
 // [circle of confusion]
