@@ -222,9 +222,11 @@ TEST_CASE("path tracing: settings that make no sense are refused with their valu
     const double nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(said({.max_depth = 0}) == "max_depth is 0; it must be at least 1.");
     CHECK(said({.roulette_threshold = -1}) ==
-          "roulette_threshold is -1; it must be at least 0.");
+          "roulette_threshold is -1; it must be finite and at least 0.");
     CHECK(said({.roulette_threshold = nan}) ==
-          "roulette_threshold is NaN; it must be at least 0.");
+          "roulette_threshold is NaN; it must be finite and at least 0.");
+    CHECK(said({.roulette_threshold = std::numeric_limits<double>::infinity()}) ==
+          "roulette_threshold is infinity; it must be finite and at least 0.");
     CHECK(said({.roulette_max = 0}) == "roulette_max is 0; it must be in (0, 1].");
     CHECK(said({.roulette_max = 1.5}) == "roulette_max is 1.5; it must be in (0, 1].");
     CHECK(said({.roulette_max = nan}) == "roulette_max is NaN; it must be in (0, 1].");

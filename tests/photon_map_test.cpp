@@ -397,6 +397,10 @@ TEST_CASE("photon_map: photons that all lie in one point give no NaN") {
     CHECK(
         double(estimate(map, {.radius = 1, .nearest = 5, .kernel = Kernel::box}, beside)
                    .x) == doctest::Approx(4 * one / 0.25));
+    // The largest radius is no length of the scene.
+    CHECK(double(estimate(map, {.radius = 1e15f, .nearest = 5, .kernel = Kernel::box},
+                          beside)
+                     .x) == doctest::Approx(4 * one / 0.25));
     CHECK(estimate(map, {.radius = 1, .nearest = 5}, beside) == Rgb{0}); // Epanechnikov
 }
 

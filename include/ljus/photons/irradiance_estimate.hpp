@@ -3,6 +3,7 @@
 /// \file ljus/photons/irradiance_estimate.hpp
 /// \brief Settings of density estimates, and the irradiance from photons at a point.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -154,7 +155,7 @@ sum_of_nearest(const PhotonMapT<T>& map, const SurfacePointT<T>& point,
     const auto [photons, radius2] =
         nearest_photons(map, point, T(gather.radius),
                         std::span(room.data(), gather.nearest), OfKinds{kinds});
-    if (!(radius2 > 1e-30 * widest2)) return {};
+    if (!(radius2 > 1e-30 * std::min(widest2, 1.0))) return {};
     DiscSum disc{.radius2 = radius2};
     for (const Neighbor& near : photons) {
         const PhotonRecordT<T> photon = map.records[near.index];

@@ -45,7 +45,9 @@ struct Patches {
 
 /// How a scene is divided.
 struct PatchSettings {
-    double size = 0.25; ///< The largest edge length of a patch, in scene units.
+    /// The largest edge length of a patch, in scene units; towards the poles of a ball
+    /// some are longer.
+    double size = 0.25;
     /// The largest number of patches, at most 65536. n patches take 8 n^2 bytes.
     std::uint32_t most = 8192;
 };

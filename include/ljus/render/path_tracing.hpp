@@ -3,6 +3,8 @@
 /// \file ljus/render/path_tracing.hpp
 /// \brief The rendering equation solved by random paths: the reference renderer.
 
+#include <cmath>
+
 #include "ljus/path/continue_path.hpp"
 #include "ljus/path/direct_light.hpp"
 #include "ljus/path/fog_path.hpp"
@@ -35,8 +37,9 @@ struct PathTracingSettings {
 /// \throws std::invalid_argument  if a setting is out of range.
 inline void check(const PathTracingSettings& settings) {
     require_at_least("max_depth", settings.max_depth, 1);
-    require(settings.roulette_threshold >= 0, "roulette_threshold",
-            settings.roulette_threshold, "at least 0");
+    require(settings.roulette_threshold >= 0 &&
+                std::isfinite(settings.roulette_threshold),
+            "roulette_threshold", settings.roulette_threshold, "finite and at least 0");
     require(settings.roulette_max > 0 && settings.roulette_max <= 1, "roulette_max",
             settings.roulette_max, "in (0, 1]");
 }
