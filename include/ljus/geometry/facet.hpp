@@ -50,9 +50,9 @@ namespace detail {
 
 /// Clips a facet by the plane through `point`. The unit normal of the plane points to
 /// the side that is kept. Corners within `width` of the plane count as on the plane.
-/// \return At most one corner more than the facet, or half as many more if rounding puts
-///         every other corner of a facet in the plane below it. No corners if nothing is
-///         left.
+/// \return At most one corner more than the facet, or up to half as many more if the
+///         facet lies in the plane and rounding puts corners on both sides. No corners
+///         if nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {
