@@ -382,7 +382,7 @@ void run_request(examples::CommandLine& line, Request& r,
         std::all_of(colors.begin(), colors.end(), is_black<T>))
         tell("every pixel is black: " + why_black(r, needs(world)) + "\n", r);
     line.fill({r.picture.width, r.picture.height, r.picture.samples});
-    if (whole && !examples::first_hit_of(r.renderer) &&
+    if (whole && !examples::first_hit_of(r.renderer) && r.photons.empty() &&
         (promised(r.promise) || r.adaptive.more > 0))
         tell(dim_remark(result.rendered.image), r);
     save_result(r, to_json(line, r), result, seconds);

@@ -891,10 +891,6 @@ TEST_CASE("caustic_budget: who has one lamp, or gives shares, has no pilot of la
     settings.caustics.light_shares = {0.25, 0.75};
     CHECK(caustic_light_shares(two, settings) == std::vector{0.25, 0.75});
 
-    // No picture is so large that its photons overflow.
-    CHECK(preset_settings(Preset::fast, 2000000000, 2000000000).caustics.photons ==
-          1000000);
-
     // The presets ask it, without a pilot of objects.
     CHECK_FALSE(preset_settings(Preset::exact, 100, 100).share_lights);
     for (const Preset preset : {Preset::draft, Preset::fast}) {

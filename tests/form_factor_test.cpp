@@ -372,4 +372,10 @@ TEST_CASE("facet: what only touches the plane is no part, what is near it lies o
     CHECK(ljus::detail::clipped(hexagon, {}, up).count == 7);
     const double halves = form_factor_at({}, up, one) + form_factor_at({}, up, two);
     CHECK(form_factor_at({}, up, hexagon) == doctest::Approx(halves).epsilon(1e-12));
+    // In the plane, by rounding every other corner lies below: three stay, six are cut.
+    for (int i = 0; i < 6; ++i)
+        hexagon.corners[std::size_t(i)] =
+            V{corner(i).y, corner(i).z + 3, i % 2 == 0 ? 1e-17 : -1e-17};
+    CHECK(ljus::detail::clipped(hexagon, {}, up).count == 9);
+    CHECK(form_factor_at({}, up, hexagon) < 1e-12);
 }

@@ -320,14 +320,13 @@ TEST_CASE("hdr: a truncated, longer or foreign file is refused in a sentence") {
     for (const std::string& header :
          {std::string("PF\n3 2\n-1.0\n"), std::string("\n\n"),
           start + "FORMAT=32-bit_rle_luv\n\n-Y 2 +X 3\n",
-          start + "FORMAT=foo32-bit_rle_rgbe\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=-1\n\n-Y 2 +X 3\n", start + "EXPOSURE=nan\n\n-Y 2 +X 3\n",
           start + "EXPOSURE=\n\n-Y 2 +X 3\n", start + "\n+Y 2 -X 3\n",
           start + "\n+X 3 -Y 2\n", start + "\n-Y 0 +X 3\n", start + "\n-Y -2 +X 3\n",
           start + "\n-Y 268435456 +X 268435456\n", start + "\n-Y 268435456 +X 1\n",
           start + "\n-Y 1 +X 268435456\n", start + "\n-Y 2 +X 3\n\1\1\1\1"}) {
         CAPTURE(header);
-        ScratchFolder::write(path, header + std::string(24, '\x01'));
+        ScratchFolder::write(path, header + std::string(24, '\x40'));
         CHECK(message_of_load(path) != "loaded");
     }
 }
@@ -365,6 +364,11 @@ TEST_CASE("hdr: what is wrong with a header or a row is said, word by word") {
     CHECK(message(start + "\n+Y 1 -X 3\n" + row) == "its rows go +Y -X" + only);
     CHECK(message(start + "\n-Y 1 -X 3\n" + row) == "its rows go -Y -X" + only);
     CHECK(message(start + "\n+X 1 -Y 3\n" + row) == "its rows go +X -Y" + only);
+    CHECK(message(start + "FORMAT= 32-bit_rle_rgbe\n\n-Y 1 +X 3\n" + row) == "loaded");
+    for (const char* const format : {"foo32-bit_rle_rgbe", "32-bit_rle_rgbe foo", ""})
+        CHECK(message(start + "FORMAT=" + format + "\n\n-Y 1 +X 3\n" + row)
+                  .find("it must be 32-bit_rle_rgbe or 32-bit_rle_xyze") !=
+              std::string::npos);
     for (const char* const exposure : {"-1", "1e999", "nan"})
         CHECK(message(start + "EXPOSURE=" + exposure + "\n\n-Y 1 +X 3\n" + row)
                   .find("which is not a number above 0") != std::string::npos);

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Measures the cost of including each header alone: user time of -fsyntax-only.
 # The budget is 0.25 s for maths, images, geometry, optics and materials, 0.75 s for files (a
-# mesh file brings the decoders of its pictures and the cutting of its polygons), and 0.6 s
-# for the trees and all headers that include a scene. Machines are noisy: only twice the budget is an
-# error, and only if the fastest of eight runs exceeds it.
+# mesh file brings the decoders of its pictures and the cutting of its polygons), and 0.6 s for
+# the trees and all headers that include a scene. Machines are noisy: only twice the budget is
+# an error, and only if the fastest of eight runs exceeds it.
 # If a machine needs more than 0.21 s for <string> and <vector>, the budgets are scaled by
 # that factor. Optional headers are measured once: most of their cost is that of other
 # libraries.

@@ -188,6 +188,9 @@ for wants in "--more-rays 2" "--error 0.1"; do
 done
 "$render" dim.json --rays 2 --quiet --out choice.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on noise that nothing judges: $(cat err.txt)"
+sed 's/"vfov_deg": 0.1/"vfov_deg": 60/; s/: 4/: 200/g' dim.json >wide.json
+"$render" wide.json --preset fast --show-photons direct --general-photons 100 --quiet --out choice.pfm 2>err.txt
+[ ! -s err.txt ] || wrong "a remark on few photons shown: $(cat err.txt)"
 sed 's/0\.0628319/6.28319/g' dim.json >bright.json
 "$render" bright.json --more-rays 2 --quiet --out choice.pfm 2>err.txt
 [ ! -s err.txt ] || wrong "a remark on bright light: $(cat err.txt)"

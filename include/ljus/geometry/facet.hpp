@@ -24,8 +24,8 @@ namespace ljus {
 
 /// A convex polygon. Its corners turn counter-clockwise as seen from its front.
 struct Facet {
-    /// The corners: the first `count` elements. The last element is for clipping.
-    std::array<glm::dvec3, 7> corners{};
+    /// The corners: the first `count` elements. The others are for clipping.
+    std::array<glm::dvec3, 9> corners{};
     int count = 0; ///< The number of corners, at most 6.
 };
 
@@ -50,7 +50,9 @@ namespace detail {
 
 /// Clips a facet by the plane through `point`. The unit normal of the plane points to
 /// the side that is kept. Corners within `width` of the plane count as on the plane.
-/// \return At most one corner more than the facet. No corners if nothing is left.
+/// \return At most one corner more than the facet, or up to half as many more if the
+///         facet lies in the plane and rounding puts corners on both sides. No corners
+///         if nothing is left.
 [[nodiscard]] inline Facet clipped(const Facet& facet, const glm::dvec3& point,
                                    const glm::dvec3& normal,
                                    double width = 0) noexcept {

@@ -166,8 +166,8 @@ inline HdrHeader read_hdr_header(ByteReader& reader) {
         const std::string says = "its header says " + shown(line);
         line.erase(line.find_last_not_of(" \t") + 1);
         if (line.starts_with("FORMAT=")) {
-            const std::string_view format =
-                Words{std::string_view(line).substr(7)}.next();
+            const std::string_view format = std::string_view(line).substr(
+                std::min(line.find_first_not_of(" \t", 7), line.size()));
             xyze = format == "32-bit_rle_xyze";
             if (!xyze && format != "32-bit_rle_rgbe")
                 reader.fail(says + "; it must be 32-bit_rle_rgbe or 32-bit_rle_xyze");

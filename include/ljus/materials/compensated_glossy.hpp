@@ -130,7 +130,7 @@ template <std::floating_point T, typename F>
 /// scattering. u.z chooses the lobe.
 /// \return The sample; nothing in the cases of \ref bsdf, and also if the direction
 ///         points into the surface.
-/// \cost Two to three times that of sample() of GlossyT.
+/// \cost About twice that of sample() of GlossyT.
 template <std::floating_point T, typename F>
 [[nodiscard]] std::optional<BsdfSampleT<T>>
 sample(const CompensatedGlossyT<T, F>& gloss, const Vec3T<T>& wo, const Vec3T<T>& u,

@@ -53,7 +53,8 @@ inline constexpr ConductorIndexT<T> silver{{T(0.04803), T(0.05168), T(0.052)},
 /// \param cos_theta  Cosine of the angle theta between ray and normal, in [0, 1].
 /// \param n          Real part of the index, in [0, 1e9].
 /// \param k          Imaginary part of the index, in [0, 1e9]. If it is 0, R is
-///                   fresnel(cos_theta, 1, n), but 1 for cos_theta = 0 and n = 1.
+///                   fresnel(cos_theta, 1, n), except close to grazing incidence
+///                   for n close to 1.
 /// \return R in [0, 1].
 /// \cost Two square roots (one of them a hypot) and three divisions.
 /// \report{Section 3.2.5; the complex index: \cite pharr2023, section 9.3}
@@ -63,9 +64,8 @@ template <std::floating_point T>
     const T c = cos_theta;
     const T sin2 = (T(1) - c) * (T(1) + c);
 
-    // q = a + ib, with q^2 = n^2 - k^2 - s^2 + 2ink. Here -s^2 is c^2 - 1.
-    const T real = sin2 < T(0.5) ? (n - k) * (n + k) - sin2
-                                 : c * c + (n - T(1)) * (n + T(1)) - k * k;
+    // q = a + ib, with q^2 = n^2 - k^2 - s^2 + 2ink.
+    const T real = (n - k) * (n + k) - sin2;
     const T half_imaginary = n * k;
     const T size = std::hypot(real, T(2) * half_imaginary);
     const T larger = std::sqrt((size + std::abs(real)) / T(2));

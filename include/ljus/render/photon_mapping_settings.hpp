@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ljus/image/image.hpp"
 #include "ljus/path/all_lights.hpp"
 #include "ljus/photons/density_estimate.hpp"
 #include "ljus/photons/irradiance_settings.hpp"
@@ -168,8 +167,7 @@ enum class Preset : std::uint8_t {
 /// \return All settings; seeds and threads have their defaults.
 [[nodiscard]] inline PhotonMappingSettings preset_settings(Preset preset, int width,
                                                            int height) {
-    const long long pixels =
-        std::min(static_cast<long long>(width) * height, max_pixels);
+    const long long pixels = static_cast<long long>(width) * height;
     PhotonMappingSettings settings{.split_glass = true};
     settings.general.shadow_photons = false;
     settings.caustics_estimate.radius = settings.general_estimate.radius = 0;

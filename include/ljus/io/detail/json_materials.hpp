@@ -145,10 +145,10 @@ inline constexpr JsonMember unit_roughness_row =
     needed("roughness", fraction_value, "from smooth to rough", "0.5");
 inline constexpr JsonMember roughness_row =
     needed("roughness", roughness_value, "from smooth to rough", "0.25");
-inline constexpr JsonMember reflectance_row =
-    needed("reflectance", color_value,
-           "of a facet at normal incidence; of a mirror at any angle",
-           "[0.9, 0.9, 0.9]");
+inline constexpr JsonMember mirror_row =
+    needed("reflectance", color_value, "at every angle", "[0.9, 0.9, 0.9]");
+inline constexpr JsonMember reflectance_row = needed(
+    "reflectance", color_value, "of a facet at normal incidence", "[0.9, 0.9, 0.9]");
 inline constexpr std::string_view metal_words[]{"gold", "copper", "silver"};
 inline constexpr JsonMember metal_row =
     needed("metal", {.kind = JsonKind::word, .words = metal_words},
@@ -208,7 +208,7 @@ constexpr auto material_rows() {
             [](In in) {
                 return OrenNayarT<T>{in.color("albedo"), in.radians("sigma_deg")};
             }),
-        row("mirror", "a smooth mirror", {reflectance_row},
+        row("mirror", "a smooth mirror", {mirror_row},
             [](In in) { return MirrorT<T>{in.color("reflectance")}; }),
         row("dielectric", "smooth glass or water",
             {ior_row, absorption_row, priority_row},
