@@ -140,8 +140,9 @@ template <Shape S, std::floating_point T>
         return T(0);
 }
 
-/// The point u of the unit square for which sample_towards() returns the point of a lamp
-/// at which a single shadow ray is aimed: (1/2, 1/2), the centre of a quad or a disc.
+/// The point u of the unit square for which sample_towards() returns the point of a
+/// lamp at which a single shadow ray is aimed: (1/2, 1/2), the centre of a quad or a
+/// disc.
 template <Shape Lamp>
 [[nodiscard]] auto center_sample(const Lamp&) noexcept {
     return Vec2T<ScalarOf<Lamp>>{ScalarOf<Lamp>(0.5)};
